@@ -9,6 +9,9 @@ struct ProfileConfig {
   // credible range of loose to compacted glass beads is 1000 to 3600 N/m.
   double believed_stiffness_N_per_m = 1500.0;
   double stiffness_spread_relative = 0.7;
+  // Standard deviation of the steady drag coefficient lambda (bed.hpp). The believed bed has none; drag that
+  // persists at depth is in doubt, and values up to 1 are reported.
+  double steady_drag_sd = 0.5;
   // Depth at contact (strength_profile.hpp). The mean force at which contact is found is less than the
   // threshold by `contact_early_N`, because the first of several noisy samples exceeds it. The depth belongs
   // to the motors' reply, and the accelerometer can feel the blow after it: in the mean the foot is
@@ -46,6 +49,7 @@ struct ProfileConfig {
   static constexpr void fields(Self& self, Visitor&& visit) {
     visit("believed_stiffness_N_per_m", self.believed_stiffness_N_per_m, Range{1.0, 1e6});
     visit("stiffness_spread_relative", self.stiffness_spread_relative, Range{0.01, 10.0});
+    visit("steady_drag_sd", self.steady_drag_sd, Range{1e-6, 100.0});
     visit("contact_early_N", self.contact_early_N, Range{0.0, 100.0});
     visit("contact_force_sd_N", self.contact_force_sd_N, Range{0.0, 100.0});
     visit("contact_time_s", self.contact_time_s, Range{-0.01, 0.01});

@@ -25,6 +25,7 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
     for (std::size_t i = 0; i < s; ++i) response[i] += kProfileCell_m * sum(F::one);
     response[s] += kProfileCell_m * sum(F::place);
     response[kAddedMass] += sum(F::added_mass);
+    response[kSteadyDrag] += sum(F::steady_drag);
     response[kScale] += sum(F::motor);
     response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
     response[kFriction] += sum(F::friction);

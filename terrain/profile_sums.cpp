@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sandhopper {
 namespace {
@@ -28,6 +29,10 @@ double ProfileCell::product_with(std::size_t feature,
 
 double intercept_growth(const JointConfig& config, double depth_m) noexcept {
   return 1.0 - std::exp(-depth_m / config.intercept_growth_depth_m);
+}
+
+double steady_drag_kg_per_m(double foot_radius_m) noexcept {
+  return BedParameters{}.bulk_density_kg_per_m3 * std::numbers::pi * foot_radius_m * foot_radius_m;
 }
 
 double believed_force_N(const StiffnessConfig& config, double depth_m) noexcept {
@@ -84,7 +89,8 @@ ProfileRegression::ProfileRegression(const StiffnessConfig& config, double foot_
     : config_(config),
       believed_N_per_m_(config.profile_or_default().believed_stiffness_N_per_m),
       reduced_mass_kg_(reduced_mass_kg),
-      cone_(BedParameters{}, foot_radius_m) {}
+      cone_(BedParameters{}, foot_radius_m),
+      drag_kg_per_m_(steady_drag_kg_per_m(foot_radius_m)) {}
 
 double ProfileRegression::inertia_N(const JointSample& s) const noexcept {
   return config_.joint.added_mass_factor *
@@ -153,6 +159,7 @@ void ProfileRegression::add(const JointSample& s, double motor_force_N) noexcept
       growth,
       cone_.added_mass_gradient_kg_per_m(s.depth_m) * s.speed_mps * s.speed_mps +
           cone_.added_mass_kg(s.depth_m) * s.accel_mps2,
+      drag_kg_per_m_ * s.speed_mps * s.speed_mps,
       sums_.last_s,
       sums_.last_change_mps,
       std::tanh(s.leg_rate_mps / config_.joint.friction_switch_speed_mps),

@@ -8,7 +8,7 @@
 #include "terrain/reloading.hpp"
 
 // Normal equations of the strength profile (strength_profile.hpp), accumulated in the cycle. The depth is
-// divided into cells; each stores the weighted products of nine features of its samples. After liftoff the
+// divided into cells; each stores the weighted products of ten features of its samples. After liftoff the
 // solver combines them with any slope of the curve. So the depth error can be a nuisance parameter although
 // the slope is not known in advance.
 namespace sandhopper {
@@ -18,20 +18,22 @@ inline constexpr double kProfileCell_m = 0.0025;
 inline constexpr double kProfileDepth_m = static_cast<double>(kProfileCells) * kProfileCell_m;
 
 // Features of a sample: 1, position in the cell (0 to 1), 1 - exp(-z/dz0), added-mass term (joint_fit.hpp)
-// [N], time since contact [s], speed minus the speed at contact [m/s], direction of joint friction, force
-// from the motors' current [N], and measured force minus the believed bed's force [N].
+// [N], steady drag at lambda = 1 (bed.hpp) [N], time since contact [s], speed minus the speed at contact
+// [m/s], direction of joint friction, force from the motors' current [N], and measured force minus the
+// believed bed's force [N].
 enum class ProfileFeature : std::size_t {
   one,
   place,
   intercept,
   added_mass,
+  steady_drag,
   time,
   speed,
   friction,
   motor,
   force
 };
-inline constexpr std::size_t kProfileFeatures = 9;
+inline constexpr std::size_t kProfileFeatures = 10;
 inline constexpr std::size_t kProfileProducts = kProfileFeatures * (kProfileFeatures + 1) / 2;
 
 struct ProfileCell {
@@ -69,6 +71,9 @@ double believed_force_N(const StiffnessConfig& config, double depth_m) noexcept;
 // 1 - exp(-z/dz0)
 double intercept_growth(const JointConfig& config, double depth_m) noexcept;
 
+// Steady drag of a flat round foot at lambda = 1, over the square of the speed: rho A.
+double steady_drag_kg_per_m(double foot_radius_m) noexcept;
+
 // Adds samples at constant cost. Never allocates.
 class ProfileRegression {
  public:
@@ -97,7 +102,8 @@ class ProfileRegression {
   StiffnessConfig config_;
   double believed_N_per_m_;
   double reduced_mass_kg_;
-  Bed cone_;  // added mass at factor 1
+  Bed cone_;              // added mass at factor 1
+  double drag_kg_per_m_;  // steady drag at lambda = 1, over v^2
   ProfileSums sums_{};
   double start_speed_mps_ = 0.0, start_s_ = 0.0;  // from which lag and drift count
   bool starts_ = false;                           // at the next sample

@@ -12,11 +12,12 @@
 //   F(z) = m(z) + k b (1 - exp(-z/dz0)) + integral of kappa,   b the intercept depth beyond the believed one,
 //   kappa_j the tangent stiffness of cell j beyond the believed one
 //   kappa ~ N(0, Sigma),  Sigma_ij = s_i s_j exp(-|i - j| h / L),  s_j = s * believed tangent stiffness
-//   force = F(z + D) + c A + e Q + f tanh(Ldot / v_s) + noise,  D = d + x(t) - x(0) + l (v - v_0)
-// with A and f as in joint_fit.hpp, Q the force from the motors' current, e the relative error of the torque
-// constant, d the depth at which the contact is detected, x the error of the Kalman filter's height, t the
-// time since contact, l a lag between force and depth, and v_0 the speed at contact. Contact is detected when
-// the force exceeds a threshold T, so a slow foot on soft ground is already deep:
+//   force = F(z + D) + c A + lambda rho A_f v^2 + e Q + f tanh(Ldot / v_s) + noise,
+//   D = d + x(t) - x(0) + l (v - v_0)
+// with A and f as in joint_fit.hpp, A_f the foot's area, Q the force from the motors' current, e the relative
+// error of the torque constant, d the depth at which the contact is detected, x the error of the Kalman
+// filter's height, t the time since contact, l a lag between force and depth, and v_0 the speed at contact.
+// Contact is detected when the force exceeds a threshold T, so a slow foot on soft ground is already deep:
 //   E d = d_T + t_c v_0,   F(d_T) + c m_a' v_0^2 = T, with the posterior's F and c
 //   var(d) = (s_T / F')^2 + (s_t v_0)^2 + s_d^2, of the noise of the force, the cycle, the surface
 // t_c is the mean time from the surface to the motors' reply whose depth is taken, for a foot whose blow
@@ -26,13 +27,16 @@
 // q and r are the spectral densities of the noise of acceleration and height. (Gain K = (2 a, 2 a^2), so the
 // error decays and turns with a, and (exp((A - K C) t) P)_11 = P_11 exp(-a t) cos(a t).) So D grows like a
 // random walk at first and is bounded later. A cell has one D, that at the mean time of its samples.
-// The smoothness length L and the spread s are integrated over a grid by their marginal likelihood, so the
-// band includes their uncertainty (Rasmussen & Williams 2006, section 5.2).
-// No sample of a stride shows the depth error D: a curve that is shifted or stretched is a curve, too. Only
-// the prior of kappa prefers one of them, the one that is nearer to the believed bed, which on ground that
-// hardens is too soft. Therefore D is not fitted. The normal equations N x = m are those without D, and D
-// keeps the distribution that it had before the stride (cut model, Plummer 2015, Statistics and Computing 25,
-// 37). It changes m by B D, D of each cell, so with S = B cov(D) B^T the estimate has the covariance
+// A drag that does not fade as the cone of grains is complete has the form of a curve in a single stride,
+// because the foot slows down with depth. Only strides of different speeds tell them apart, so its prior
+// (zero for the believed bed) widens the band of a fast stride. The smoothness length L and the spread s are
+// integrated over a grid by their marginal likelihood, so the band includes their uncertainty (Rasmussen &
+// Williams 2006, section 5.2). No sample of a stride shows the depth error D: a curve that is shifted or
+// stretched is a curve, too. Only the prior of kappa prefers one of them, the one that is nearer to the
+// believed bed, which on ground that hardens is too soft. Therefore D is not fitted. The normal equations N x
+// = m are those without D, and D keeps the distribution that it had before the stride (cut model, Plummer
+// 2015, Statistics and Computing 25, 37). It changes m by B D, D of each cell, so with S = B cov(D) B^T the
+// estimate has the covariance
 //   N^-1 + N^-1 S N^-1
 // F' in B is taken from the previous posterior, in three passes.
 // The measured force depends on the measured acceleration, F = M_f (a + g) + ..., so the likelihood of c has
@@ -68,6 +72,8 @@ struct StrengthProfile {
                                                     // strides
   double added_mass_factor = 0.0;
   double added_mass_factor_sd = 0.0;
+  double steady_drag_coefficient = 0.0;
+  double steady_drag_coefficient_sd = 0.0;
   double smoothness_m = 0.0;     // posterior mean of L
   double spread_relative = 0.0;  // posterior mean of s
   double joint_friction_N = 0.0;
@@ -86,6 +92,8 @@ struct StrengthProfile {
     visit("observations", self.observations);
     visit("added_mass_factor", self.added_mass_factor);
     visit("added_mass_factor_sd", self.added_mass_factor_sd);
+    visit("steady_drag_coefficient", self.steady_drag_coefficient);
+    visit("steady_drag_coefficient_sd", self.steady_drag_coefficient_sd);
     visit("smoothness_m", self.smoothness_m);
     visit("spread_relative", self.spread_relative);
     visit("joint_friction_N", self.joint_friction_N);
@@ -112,11 +120,12 @@ ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept
 // Estimates the profile from all strides of a trial so far.
 class ProfileSolver {
  public:
-  static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
+  static constexpr std::size_t kShared = kProfileCells + 4;  // kappa, c, e, z0, lambda
   static constexpr std::size_t kTerms = kShared + 1;         // and f
 
   static constexpr std::size_t kAddedMass = kProfileCells, kScale = kProfileCells + 1,
-                               kIntercept = kProfileCells + 2, kFriction = kProfileCells + 3;
+                               kIntercept = kProfileCells + 2, kSteadyDrag = kProfileCells + 3,
+                               kFriction = kProfileCells + 4;
 
   template <std::size_t N>
   using Matrix = std::array<double, N * N>;

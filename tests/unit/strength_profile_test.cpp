@@ -5,80 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <numbers>
 #include <random>
 
 #include "terrain/ground_summary.hpp"
 #include "tests/unit/allocation_guard.hpp"
+#include "tests/unit/profile_pushes.hpp"
 
 namespace sandhopper {
 namespace {
-
-constexpr double kRadius_m = 0.040;
-constexpr double kReducedMass_kg = 0.68;
-using Curve = std::function<double(double)>;
-
-double line_N(double z) { return 1500.0 * (z + 0.003 * (1.0 - std::exp(-z / 0.003))); }
-double power_N(double z) { return 49.5 * std::pow(z / 0.030, 1.4); }
-double layers_N(double z) { return line_N(z) * (0.7 + 1.8 / (1.0 + std::exp((0.020 - z) / 0.002))); }
-
-struct Push {
-  double speed_mps = 0.8;
-  double to_m = 0.045;
-  double noise_N = 0.3;
-  double too_deep_m = 0.0, depth_drift_mps = 0.0;
-  unsigned seed = 1;
-  double lasts = 3.5;    // in units of to_m / speed_mps
-  bool contact = false;  // the contact's speed is known, and the depth has the errors of the filter and lag
-};
-
-// Error of the Kalman filter's height since the contact, at 1 ms steps: the real part of a complex process
-// with the correlation exp((i - 1) a t).
-class FilterError {
- public:
-  explicit FilterError(unsigned seed) : engine_(seed), first_(draw()), now_(first_) {}
-  double next_m() {
-    const std::complex<double> keep =
-        std::exp(std::complex<double>(-1.0, 1.0) * prior_.filter_decay_per_s * 1e-3);
-    now_ = keep * now_ + std::sqrt(1.0 - std::norm(keep)) * draw();
-    return prior_.filter_sd_m * (now_ - first_).real();
-  }
-
- private:
-  std::complex<double> draw() { return {normal_(engine_), normal_(engine_)}; }
-  ProfileConfig prior_{};
-  std::mt19937 engine_;
-  std::normal_distribution<double> normal_{};
-  std::complex<double> first_, now_;
-};
-
-// A foot that slows down while it enters virgin ground with drag and added mass.
-ProfileSums sums_of(const Curve& curve, const Push& push) {
-  const Bed cone(BedParameters{}, kRadius_m);
-  ProfileRegression regression({}, kRadius_m, kReducedMass_kg);
-  if (push.contact) regression.on_contact(push.speed_mps);
-  std::mt19937 engine(push.seed);
-  std::normal_distribution<double> noise(0.0, push.noise_N);
-  FilterError filter(push.seed + 1000);
-  const double rate = push.speed_mps / push.to_m;
-  for (double t = 1e-3; rate * t < push.lasts; t += 1e-3) {
-    const double z = push.to_m * (1.0 - std::exp(-rate * t));
-    const double v = push.speed_mps * std::exp(-rate * t), a = -rate * v;
-    const double force = curve(z) + cone.added_mass_gradient_kg_per_m(z) * v * v + cone.added_mass_kg(z) * a;
-    double depth_m = z + push.too_deep_m + push.depth_drift_mps * t;
-    if (push.contact) depth_m += ProfileConfig{}.depth_lag_s * (push.speed_mps - v) + filter.next_m();
-    regression.add({depth_m, v, a, force + noise(engine), -0.1, t, 1e-3}, force);
-  }
-  return regression.sums();
-}
-
-ProfileSolver solved(const Curve& curve, const Push& push) {
-  ProfileSolver solver{StiffnessConfig{}};
-  solver.add(sums_of(curve, push), 1);
-  return solver;
-}
 
 TEST(StrengthProfile, FollowsCurvesThatAreNoLine) {
   for (const Curve& curve : {Curve(line_N), Curve(power_N), Curve(layers_N)}) {
@@ -125,83 +61,6 @@ TEST(StrengthProfile, PosteriorOfAStrideIsThePriorOfTheNext) {
   EXPECT_LT(solver.force_N(0.015).sd, shallow_before);
   EXPECT_NEAR(solver.force_N(0.035).value, line_N(0.035), 3.0 * solver.force_N(0.035).sd);
   EXPECT_EQ(solver.profile().stride, 2u);
-}
-
-struct PlacesScore {
-  double inside = 0.0;          // share of the depths whose force the band holds
-  double width_relative = 0.0;  // to the band of one place, at 30 mm
-};
-
-// Places of a ground prepared alike have a curve in common. Each has its own fluctuation of 2 % over 2 mm,
-// and its own depth errors.
-PlacesScore score_of_places(const Curve& common_N) {
-  constexpr unsigned kSessions = 30, kPlaces = 6;
-  const double cone_kg_per_m = Bed(BedParameters{}, kRadius_m).added_mass_gradient_kg_per_m(0.0);
-  std::mt19937 engine(5);
-  std::normal_distribution<double> normal;
-  double inside = 0.0, all = 0.0, width = 0.0, width_of_one = 0.0;
-  for (unsigned session = 0; session < kSessions; ++session) {
-    ProfileSolver solver{StiffnessConfig{}};
-    for (unsigned place = 0; place < kPlaces; ++place) {
-      std::array<double, 24> knots;
-      for (double& knot : knots) knot = normal(engine);
-      const auto curve = [&](double z) {
-        return common_N(z) *
-               (1.0 + 0.02 * knots[std::min<std::size_t>(static_cast<std::size_t>(z / 0.002), 23)]);
-      };
-      Push push{
-          .speed_mps = 0.6 + 0.1 * place, .seed = kPlaces * session + place, .lasts = 1.8, .contact = true};
-      const auto contact = solver.contact_depth(push.speed_mps, cone_kg_per_m);
-      push.too_deep_m = -contact.mean_m + std::sqrt(contact.variance_m2) * normal(engine);
-      solver.add(sums_of(curve, push), place == 0 ? 1 : ProfileSolver::kFreshGround);
-      if (place == 0) width_of_one += solver.force_N(0.030).sd;
-    }
-    width += solver.force_N(0.030).sd;
-    for (double z = 0.005; z < 0.036; z += 0.001) {
-      const auto force = solver.force_N(z);
-      inside += force.low() < common_N(z) && common_N(z) < force.high();
-      all += 1.0;
-    }
-  }
-  return {inside / all, width / width_of_one};
-}
-
-TEST(StrengthProfile, BandOfSeveralPlacesHoldsTheirCommonCurve) {
-  const auto line = score_of_places(line_N), hardens = score_of_places(power_N);
-  EXPECT_GE(line.inside, 0.93);
-  // On ground that hardens the depth errors bias the added mass, which the band does not count.
-  EXPECT_GE(hardens.inside, 0.82);
-  for (const auto& score : {line, hardens}) {
-    EXPECT_LT(score.width_relative, 0.65);
-  }
-}
-
-// However many places there are, the band stays as wide as the error that they share. No stride narrows this
-// part, so the planner's band leaves it out.
-TEST(StrengthProfile, TheErrorThatAllPlacesShareDoesNotAverageOut) {
-  constexpr double kDepth_m = 0.030, kTangent_N_per_m = 2000.0;
-  constexpr std::uint32_t kPlaces = 40;
-  const auto shared_N = ProfileConfig{}.shared_surface_sd_m * kTangent_N_per_m;
-  StiffnessConfig config;
-  config.joint.force_scale_relative = 1e-4;  // an error of the torque constant does not average out either
-  ProfileSolver solver(config);
-  for (std::uint32_t place = 0; place < kPlaces; ++place)
-    solver.add(sums_of([](double z) { return kTangent_N_per_m * z; },
-                       {.speed_mps = 0.4 + 0.02 * place, .seed = place + 1, .contact = true}),
-               place == 0 ? 1 : ProfileSolver::kFreshGround);
-  EXPECT_GT(solver.force_N(kDepth_m).sd, 0.7 * shared_N);
-  EXPECT_LT(solver.force_N(kDepth_m, ProfileSolver::Band::narrowable).sd, 0.7 * solver.force_N(kDepth_m).sd);
-}
-
-// A place whose curve fits a cell does not cancel the misfit of another.
-TEST(StrengthProfile, MisfitOfACellIsPooledOverPlaces) {
-  const auto jagged_N = [](double z) { return line_N(z) + (z > 0.0200 && z < 0.02125 ? 20.0 : 0.0); };
-  const auto sd_of = [&](const Curve& first) {
-    auto solver = solved(first, {});
-    solver.add(sums_of(line_N, {.seed = 2}), ProfileSolver::kFreshGround);
-    return solver.force_N(0.02125).sd;
-  };
-  EXPECT_GT(sd_of(jagged_N), 1.5 * sd_of(line_N));
 }
 
 TEST(StrengthProfile, StrideWithoutNewGroundLeavesItAsItIs) {

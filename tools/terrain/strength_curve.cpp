@@ -16,10 +16,12 @@ constexpr std::size_t kFewestLoadingSamples = 10;
 
 // Converts the configuration to depths in units of `unit` metres: lengths and speeds of the prior become
 // smaller, stiffnesses larger. The added mass is proportional to the cube of a length and multiplies an
-// acceleration.
+// acceleration; drag is proportional to an area and the square of a speed.
 StiffnessConfig in_units(StiffnessConfig config, double unit) {
+  const double mass = std::pow(unit, 4);
   ProfileConfig profile = config.profile_or_default();
   profile.believed_stiffness_N_per_m *= unit;
+  profile.steady_drag_sd *= mass;
   for (double* length :
        {&profile.depth_noise_m, &profile.surface_sd_m, &profile.shared_surface_sd_m, &profile.filter_sd_m})
     *length /= unit;
@@ -29,7 +31,6 @@ StiffnessConfig in_units(StiffnessConfig config, double unit) {
                          &joint.intercept_depth_m, &joint.intercept_depth_sd_m, &joint.surface_sd_m,
                          &joint.depth_drift_sd_mps, &config.min_depth_span_m})
     *length /= unit;
-  const double mass = std::pow(unit, 4);
   joint.added_mass_factor *= mass;
   joint.added_mass_factor_sd *= mass;
   return config;
@@ -56,6 +57,7 @@ StiffnessConfig config_for(std::span<const LoadingSample> loading, const CurveFa
   const double mean_slope = last.force_N / last.depth_m;
   profile.believed_stiffness_N_per_m =
       facts.believed_stiffness_N_per_m > 0.0 ? facts.believed_stiffness_N_per_m : std::max(mean_slope, 1.0);
+  if (facts.quasi_static) profile.steady_drag_sd = 1e-6;
   config.profile = profile;
   config.max_depth_m = std::numeric_limits<double>::infinity();             // the foot is carried by a rod
   config.joint.accel_range_mps2 = std::numeric_limits<double>::infinity();  // the caller removed saturated

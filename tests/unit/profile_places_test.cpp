@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "terrain/strength_profile.hpp"
+#include "tests/unit/profile_pushes.hpp"
+
+// The profile of several places, and what strides of one place cannot tell.
+namespace sandhopper {
+namespace {
+
+struct PlacesScore {
+  double inside = 0.0;          // share of the depths whose force the band holds
+  double width_relative = 0.0;  // to the band of one place, at 30 mm
+};
+
+// Places of a ground prepared alike have a curve in common. Each has its own fluctuation of 2 % over 2 mm,
+// and its own depth errors.
+PlacesScore score_of_places(const Curve& common_N) {
+  constexpr unsigned kSessions = 30, kPlaces = 6;
+  const double cone_kg_per_m = Bed(BedParameters{}, kRadius_m).added_mass_gradient_kg_per_m(0.0);
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal;
+  double inside = 0.0, all = 0.0, width = 0.0, width_of_one = 0.0;
+  for (unsigned session = 0; session < kSessions; ++session) {
+    ProfileSolver solver{StiffnessConfig{}};
+    for (unsigned place = 0; place < kPlaces; ++place) {
+      std::array<double, 24> knots;
+      for (double& knot : knots) knot = normal(engine);
+      const auto curve = [&](double z) {
+        return common_N(z) *
+               (1.0 + 0.02 * knots[std::min<std::size_t>(static_cast<std::size_t>(z / 0.002), 23)]);
+      };
+      Push push{
+          .speed_mps = 0.6 + 0.1 * place, .seed = kPlaces * session + place, .lasts = 1.8, .contact = true};
+      const auto contact = solver.contact_depth(push.speed_mps, cone_kg_per_m);
+      push.too_deep_m = -contact.mean_m + std::sqrt(contact.variance_m2) * normal(engine);
+      solver.add(sums_of(curve, push), place == 0 ? 1 : ProfileSolver::kFreshGround);
+      if (place == 0) width_of_one += solver.force_N(0.030).sd;
+    }
+    width += solver.force_N(0.030).sd;
+    for (double z = 0.005; z < 0.036; z += 0.001) {
+      const auto force = solver.force_N(z);
+      inside += force.low() < common_N(z) && common_N(z) < force.high();
+      all += 1.0;
+    }
+  }
+  return {inside / all, width / width_of_one};
+}
+
+TEST(StrengthProfile, BandOfSeveralPlacesHoldsTheirCommonCurve) {
+  const auto line = score_of_places(line_N), hardens = score_of_places(power_N);
+  EXPECT_GE(line.inside, 0.93);
+  // On ground that hardens the depth errors bias the added mass, which the band does not count.
+  EXPECT_GE(hardens.inside, 0.82);
+  for (const auto& score : {line, hardens}) {
+    EXPECT_LT(score.width_relative, 0.65);
+  }
+}
+
+// A drag that does not fade with depth has the form of a curve in one stride. So the band of a fast stride
+// counts it, and strides of several speeds find it.
+TEST(StrengthProfile, DragThatStaysAtDepthIsNoStrength) {
+  constexpr double kDrag = 0.5;
+  const auto held = [&](double prior_sd) {
+    double inside = 0.0, all = 0.0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      StiffnessConfig config;
+      config.profile = ProfileConfig{.steady_drag_sd = prior_sd};
+      ProfileSolver solver(config);
+      solver.add(sums_of(line_N, {.speed_mps = 1.4, .steady_drag = kDrag, .seed = seed}), 1);
+      for (double z = 0.005; z < 0.040; z += 0.001) {
+        const auto force = solver.force_N(z);
+        inside += force.low() < line_N(z) && line_N(z) < force.high();
+        all += 1.0;
+      }
+    }
+    return inside / all;
+  };
+  EXPECT_GE(held(ProfileConfig{}.steady_drag_sd), 0.9);
+  EXPECT_LT(held(1e-6), 0.8);  // without this prior the curve takes the drag for strength
+
+  ProfileSolver solver{StiffnessConfig{}};
+  for (unsigned place = 0; place < 10; ++place)
+    solver.add(sums_of(line_N, {.speed_mps = 0.3 + 0.15 * place, .steady_drag = kDrag, .seed = place + 1}),
+               place == 0 ? 1 : ProfileSolver::kFreshGround);
+  const auto& profile = solver.profile();
+  EXPECT_NEAR(profile.steady_drag_coefficient, kDrag, 2.0 * profile.steady_drag_coefficient_sd);
+  EXPECT_LT(profile.steady_drag_coefficient_sd, 0.15);
+  EXPECT_GT(profile.steady_drag_coefficient_sd, 0.0);
+}
+
+// However many places there are, the band stays as wide as the error that they share. No stride narrows this
+// part, so the planner's band leaves it out.
+TEST(StrengthProfile, TheErrorThatAllPlacesShareDoesNotAverageOut) {
+  constexpr double kDepth_m = 0.030, kTangent_N_per_m = 2000.0;
+  constexpr std::uint32_t kPlaces = 40;
+  const auto shared_N = ProfileConfig{}.shared_surface_sd_m * kTangent_N_per_m;
+  StiffnessConfig config;
+  // Errors of the torque constant and of the drag do not average out either.
+  config.joint.force_scale_relative = 1e-4;
+  config.profile = ProfileConfig{.steady_drag_sd = 1e-6};
+  ProfileSolver solver(config);
+  for (std::uint32_t place = 0; place < kPlaces; ++place)
+    solver.add(sums_of([](double z) { return kTangent_N_per_m * z; },
+                       {.speed_mps = 0.4 + 0.02 * place, .seed = place + 1, .contact = true}),
+               place == 0 ? 1 : ProfileSolver::kFreshGround);
+  EXPECT_GT(solver.force_N(kDepth_m).sd, 0.7 * shared_N);
+  EXPECT_LT(solver.force_N(kDepth_m, ProfileSolver::Band::narrowable).sd, 0.7 * solver.force_N(kDepth_m).sd);
+}
+
+// A place whose curve fits a cell does not cancel the misfit of another.
+TEST(StrengthProfile, MisfitOfACellIsPooledOverPlaces) {
+  const auto jagged_N = [](double z) { return line_N(z) + (z > 0.0200 && z < 0.02125 ? 20.0 : 0.0); };
+  const auto sd_of = [&](const Curve& first) {
+    auto solver = solved(first, {});
+    solver.add(sums_of(line_N, {.seed = 2}), ProfileSolver::kFreshGround);
+    return solver.force_N(0.02125).sd;
+  };
+  EXPECT_GT(sd_of(jagged_N), 1.5 * sd_of(line_N));
+}
+
+}  // namespace
+}  // namespace sandhopper
