@@ -55,7 +55,9 @@ TEST(Units, NamesAreRead) {
         std::tuple{"Speed, rpm", "angular rate", 0.104719755}, std::tuple{"Drehmoment [N·m]", "torque", 1.0},
         std::tuple{"torque_mNm", "torque", 1e-3}, std::tuple{"torque_kNm", "torque", 1e3},
         std::tuple{"angleDeg", "angle", 0.017453293}, std::tuple{"TIME_MS", "time", 1e-3},
-        std::tuple{"omega_rad_s", "angular rate", 1.0}, std::tuple{"Time (ms)", "time", 1e-3}}) {
+        std::tuple{"omega_rad_s", "angular rate", 1.0}, std::tuple{"Speed_mm_per_s", "speed", 1e-3},
+        std::tuple{"Acc_m_per_s2", "acceleration", 1.0}, std::tuple{"acc_mm_s2", "acceleration", 1e-3},
+        std::tuple{"v_cm_s", "speed", 1e-2}, std::tuple{"Time (ms)", "time", 1e-3}}) {
     ASSERT_TRUE(unit(name)) << name;
     EXPECT_EQ(unit(name)->dimension, dimension) << name;
     EXPECT_NEAR(unit(name)->to_si / to_si, 1.0, 1e-6) << name;

@@ -50,7 +50,7 @@ constexpr std::array kChannelMeanings{
     Entry{"quasi_static_force_N", "ground force from the motors' torque alone, inertia neglected"},
     Entry{"foot_z_m", "height of the plate's face over the undisturbed surface; negative in the bed"},
     Entry{"foot_velocity_mps", "its speed, upward positive"},
-    Entry{"foot_accel_mps2", "its acceleration, upward positive"},
+    Entry{"foot_accel_mps2", "its acceleration, upward positive, without gravity: 0 at rest"},
     Entry{"force_N", "force of the bed on the plate, compression positive"},
     Entry{"height_m", "height of the body; its zero is free"},
     Entry{"accel_mps2", "specific force upward: +9.81 at rest, 0 in free fall"},

@@ -16,10 +16,12 @@ namespace {
 
 using enum FindingSeverity;
 
+// `speed` is the rate of `position`.
 struct Pair {
   std::string_view position, speed;
 };
 constexpr std::array kPairs{Pair{"position_rad", "velocity_radps"}, Pair{"foot_z_m", "foot_velocity_mps"},
+                            Pair{"foot_velocity_mps", "foot_accel_mps2"},
                             Pair{"motor_left_position_rad", "motor_left_velocity_radps"},
                             Pair{"motor_right_position_rad", "motor_right_velocity_radps"}};
 
@@ -47,6 +49,7 @@ constexpr std::array kKnown{
     Known{0.01, "0.01: the position in cm"},
     Known{10.0, "10: mm for cm"},
     Known{0.1, "0.1: cm for mm"},
+    Known{1.0 / 9.80665, "0.102: an acceleration in g"},
     Known{1.0 / 0.0254, "39.4: the speed in in/s"},
     Known{0.0254, "0.0254: the position in inches"},
     Known{2.54, "2.54: inches for cm"},

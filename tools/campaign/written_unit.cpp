@@ -135,6 +135,31 @@ std::optional<WrittenUnit> unit_in_capitals(std::string_view column) {
   return unit_in_any_case(column.substr(at + 1));
 }
 
+// Units of several words at the end of a name: "motor_speed_rad_s", "Speed_mm_per_s", "acc_mm_s2".
+std::optional<WrittenUnit> unit_of_words(std::string_view column) {
+  struct Words {
+    std::string_view words, unit, dimension;
+    double to_si;
+  };
+  constexpr std::array<Words, 8> kWords{{{"rad_s", "rad/s", "angular rate", 1.0},
+                                         {"deg_s", "deg/s", "angular rate", kPi / 180},
+                                         {"m_s", "m/s", "speed", 1.0},
+                                         {"cm_s", "cm/s", "speed", 1e-2},
+                                         {"mm_s", "mm/s", "speed", 1e-3},
+                                         {"m_s2", "m/s^2", "acceleration", 1.0},
+                                         {"cm_s2", "cm/s^2", "acceleration", 1e-2},
+                                         {"mm_s2", "mm/s^2", "acceleration", 1e-3}}};
+  std::string name(column);
+  if (const auto per = name.rfind("_per_s"); per != std::string::npos) name.erase(per, 4);
+  for (const auto& [words, unit, dimension, to_si] : kWords) {
+    if (!name.ends_with(words) || name.size() == words.size()) continue;
+    const char before = name[name.size() - words.size() - 1];
+    if (is_small(before) || is_capital(before)) continue;
+    return WrittenUnit{std::string(unit), std::string(dimension), to_si};
+  }
+  return std::nullopt;
+}
+
 // Text in the last brackets of the name.
 std::optional<std::string_view> bracketed(std::string_view name) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
@@ -180,12 +205,7 @@ std::optional<WrittenUnit> unit_in_name(std::string_view column) {
   if (const auto inner = bracketed(column)) return read_unit(*inner, true);
   if (stands_alone(column)) return known_unit(column);
   if (const auto unit = unit_in_capitals(column)) return unit;
-  // Units of several words: "motor_speed_rad_s", "force_N_per_m".
-  if (column.ends_with("rad_s")) return WrittenUnit{"rad/s", "angular rate", 1.0};
-  if (column.ends_with("deg_s")) return WrittenUnit{"deg/s", "angular rate", kPi / 180};
-  if (column.ends_with("m_s2")) return WrittenUnit{"m/s^2", "acceleration", 1.0};
-  if (column.ends_with("mm_s")) return WrittenUnit{"mm/s", "speed", 1e-3};
-  if (column.ends_with("_m_s")) return WrittenUnit{"m/s", "speed", 1.0};
+  if (const auto unit = unit_of_words(column)) return unit;
   if (const auto listed = split_unit(column))
     return WrittenUnit{std::string(listed->suffix), std::string(listed->dimension), listed->to_si};
   for (const std::string_view mark : {" in ", ", ", " / ", "/", "_", ".", " "}) {

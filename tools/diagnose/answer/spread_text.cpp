@@ -75,7 +75,7 @@ std::string taken_up_before(const Diagnosis& d) {
   }
   return text.empty()
              ? ""
-             : "The error before is small only because the fit moved other numbers: before, " + text + ".";
+             : "To come so near without what was found, the fit moved other numbers: before, " + text + ".";
 }
 
 }  // namespace sandhopper::diagnose
