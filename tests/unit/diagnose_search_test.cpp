@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tools/diagnose/evidence/beside.hpp"
 #include "tools/diagnose/evidence/posterior.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/fit/fit.hpp"
@@ -105,6 +108,39 @@ TEST(DiagnoseSearch, AStrongEffectElsewhereDoesNotWidenAClass) {
   const int alone = class_size(0.0);
   EXPECT_GT(alone, 0);
   EXPECT_EQ(class_size(kBias_mps2), alone);
+}
+
+// A name that the search chose is not more probable than the sets that hold it, or an alternative of it. Sets
+// that the criterion excludes do not count, and nothing becomes more probable.
+TEST(DiagnoseSearch, TheEvidenceLimitsHowProbableANameIs) {
+  // So weak a drag that other effects come near enough to be fitted completely.
+  Problem problem = prepared(drops([](double t, double h, double v) { return 0.03 * dragged(t, h, v); }));
+  Search search(problem, {.most_effects = 2});
+  search.run(null_point(problem));
+  std::vector<std::pair<double, std::size_t>> names;  // best first
+  for (const auto& [set, fit] : search.sets())
+    if (set.size() == 1 && !fit.rough && fit.fit.status != FitStatus::failed)
+      names.emplace_back(search.criterion(fit), set.front());
+  std::ranges::sort(names);
+  ASSERT_GT(names.size(), 1u);
+  const auto right = names.front().second, wrong = names.back().second;
+  const auto limited = [&](std::size_t name, double from, double apart,
+                           std::vector<std::size_t> alternatives = {}) {
+    EXPECT_TRUE(search.name({name}));
+    Posterior belief;
+    belief.apart = apart;
+    belief.probability[name] = from;
+    belief.alternatives[name] = std::move(alternatives);
+    std::vector<std::string> log;
+    limit_by_evidence(problem, search, belief, log);
+    return belief.probability[name];
+  };
+  constexpr double kEverySet = 1e9, kNoOther = -1e9;
+  EXPECT_GT(limited(right, 0.98, kEverySet), 0.95);
+  EXPECT_EQ(limited(right, 0.4, kEverySet), 0.4);
+  EXPECT_LT(limited(wrong, 0.98, kEverySet), 1e-3);
+  EXPECT_EQ(limited(wrong, 0.98, kNoOther), 0.98);
+  EXPECT_GT(limited(wrong, 0.98, kEverySet, {right}), 0.95);
 }
 
 }  // namespace
