@@ -12,12 +12,11 @@ namespace {
 
 constexpr std::size_t kShape = 4;       // parameters of a model
 constexpr std::size_t kDepartures = 4;  // largest number
-constexpr std::size_t kOthers = 4;      // intercept, added mass, force scale, steady drag
+constexpr std::size_t kOthers = 3;      // intercept, added mass, force scale
 constexpr std::size_t kColumns = kShape + kOthers + kDepartures;
 constexpr double kPinned = 1e12;
 constexpr double kFree = 1e-9;
-constexpr std::size_t kAt =
-    kShape;  // column of the intercept; added mass, force scale and steady drag follow
+constexpr std::size_t kAt = kShape;  // column of the intercept; added mass and force scale follow
 
 using Direction = std::array<double, ProfileSolver::kShared>;
 
@@ -161,8 +160,6 @@ class Summariser {
     m.use(kAt + 1, unit(ProfileSolver::kAddedMass), joint_.added_mass_factor,
           inverse_square(joint_.added_mass_factor_sd));
     m.use(kAt + 2, unit(ProfileSolver::kScale), 0.0, inverse_square(joint_.force_scale_relative));
-    m.use(kAt + 3, unit(ProfileSolver::kSteadyDrag), 0.0,
-          inverse_square(solver_.config().profile_or_default().steady_drag_sd));
     return m;
   }
   static double inverse_square(double sd) { return 1.0 / std::max(sd * sd, 1e-12); }
@@ -176,11 +173,10 @@ class Summariser {
             0.0, kFree);
   }
 
-  // Intercept depth, added mass and drag cannot be negative; negative values are set to zero.
+  // Intercept depth and added mass cannot be negative; negative values are set to zero.
   void hold(Model& m, const Fit& fit) const {
     if (fit.value[kAt] < -joint_.intercept_depth_m) m.pin(kAt, -joint_.intercept_depth_m);
     if (fit.value[kAt + 1] < 0.0) m.pin(kAt + 1, 0.0);
-    if (fit.value[kAt + 3] < 0.0) m.pin(kAt + 3, 0.0);
   }
 
   void line(GroundSummary& s) const {
@@ -225,7 +221,7 @@ class Summariser {
       log_a += std::clamp(fit.value[0], -0.5, 0.5);
       n = std::clamp(n + std::clamp(fit.value[1], -0.3, 0.3), 0.2, 4.0);
     }
-    hold(m, fit);
+    if (fit.value[kAt + 1] < 0.0) m.pin(kAt + 1, 0.0);
     s.exponent = value_of(n, std::sqrt(fit.covariance[kColumns + 1]));
     depart(m, 2, 3);
     s.power_law = check(solve(solver_, m), 3);

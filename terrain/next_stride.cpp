@@ -43,8 +43,6 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
   const Bed cone(BedParameters{}, robot.foot_radius_m);
   ProfileRegression regression(config, robot.foot_radius_m, robot.foot_mass_kg);
   const double c = std::max(solver.profile().stride > 0 ? solver.profile().added_mass_factor : 1.0, 0.0);
-  const double steady_kg_per_m =
-      std::max(solver.profile().steady_drag_coefficient, 0.0) * steady_drag_kg_per_m(robot.foot_radius_m);
   const double falling_kg = robot.body_mass_kg + robot.foot_mass_kg;
   const double fall_mps2 = robot.gravity_mps2 - robot.rail_friction_N / falling_kg;
   const double speed = std::sqrt(2.0 * fall_mps2 * std::max(setup.drop_height_m, 0.0));
@@ -61,8 +59,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
     const double leg_N = std::clamp(stiffness * (free_m - leg_m), 0.0, robot.greatest_leg_force_N(leg_m));
     const auto curve = solver.force_N(std::min(hop.depth_m, kProfileDepth_m));
     const double virgin_N = std::max(curve.value + deviations * curve.sd, 0.0);
-    const double drag_N =
-        (c * cone.added_mass_gradient_kg_per_m(hop.depth_m) + steady_kg_per_m) * hop.foot_mps * hop.foot_mps;
+    const double drag_N = c * cone.added_mass_gradient_kg_per_m(hop.depth_m) * hop.foot_mps * hop.foot_mps;
     const double push_N = robot.foot_mass_kg * robot.gravity_mps2 + leg_N;
     const double added_kg = c * cone.added_mass_kg(hop.depth_m);
     double accel = (push_N - virgin_N - drag_N) / (robot.foot_mass_kg + added_kg);

@@ -151,9 +151,6 @@ void ProfileSolver::report(const ProfileSums& sums, std::uint32_t stride) noexce
   const auto& m = posterior_.mean;
   p.added_mass_factor = m[kAddedMass];
   p.added_mass_factor_sd = std::sqrt(std::max(posterior_.covariance[kAddedMass * kTerms + kAddedMass], 0.0));
-  p.steady_drag_coefficient = m[kSteadyDrag];
-  p.steady_drag_coefficient_sd =
-      std::sqrt(std::max(posterior_.covariance[kSteadyDrag * kTerms + kSteadyDrag], 0.0));
   p.smoothness_m = posterior_.smoothness_m;
   p.spread_relative = posterior_.spread;
   p.joint_friction_N = m[kFriction];

@@ -25,7 +25,6 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
     for (std::size_t i = 0; i < s; ++i) response[i] += kProfileCell_m * sum(F::one);
     response[s] += kProfileCell_m * sum(F::place);
     response[kAddedMass] += sum(F::added_mass);
-    response[kSteadyDrag] += sum(F::steady_drag);
     response[kScale] += sum(F::motor);
     response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
     response[kFriction] += sum(F::friction);
@@ -122,7 +121,8 @@ double ProfileSolver::wander_m2(const ProfileCell& cell) const noexcept {
 }
 
 // Adds the covariance of this stride's part of the moments. Its d has a covariance with those of the strides
-// before, and shares a part with those of other places; l is the same in all; x is independent of everything.
+// before, and shares a part with those of other places; l and lambda are the same in all; x is independent of
+// everything.
 void ProfileSolver::take_depth_errors(const Information& info) noexcept {
   errors_ = kept_errors_;
   const auto& with = kept_errors_.with_depth;
@@ -130,7 +130,8 @@ void ProfileSolver::take_depth_errors(const Information& info) noexcept {
   const double surface_m2 = prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
   const double lag_s2 = prior_.depth_lag_sd_s * prior_.depth_lag_sd_s;
   const auto& surface_before = kept_errors_.of_earlier_surface;
-  const auto& lag_before = kept_errors_.of_lag;
+  const double drag2 = prior_.steady_drag_sd * prior_.steady_drag_sd;
+  const auto &lag_before = kept_errors_.of_lag, &drag_before = kept_errors_.of_drag;
   Vector<kTerms> all{}, lag{};  // change of the moment for a unit of d, and of l
   for (std::size_t s = 0; s < kProfileCells; ++s) {
     if (info.depth_normal[s] == 0.0) continue;
@@ -149,10 +150,12 @@ void ProfileSolver::take_depth_errors(const Information& info) noexcept {
       errors_.moment[i * kTerms + j] +=
           with[i] * all[j] + all[i] * with[j] +
           surface_m2 * (surface_before[i] * all[j] + all[i] * surface_before[j]) +
-          lag_s2 * (lag_before[i] * lag[j] + lag[i] * lag_before[j]);
+          lag_s2 * (lag_before[i] * lag[j] + lag[i] * lag_before[j]) +
+          drag2 * (drag_before[i] * info.of_drag[j] + info.of_drag[i] * (drag_before[j] + info.of_drag[j]));
   for (std::size_t i = 0; i < kTerms; ++i) {
     errors_.of_surface[i] += all[i];
     errors_.of_lag[i] += lag[i];
+    errors_.of_drag[i] += info.of_drag[i];
   }
 }
 
@@ -187,7 +190,8 @@ void ProfileSolver::keep(const Information& info) noexcept {
               ? 0.0
               : info.normal[i * kTerms + j] - gain[i] * info.normal[kFriction * kTerms + j];
   for (Vector<kTerms>& response : response_) reduce(response);
-  for (auto* change : {&errors_.with_depth, &errors_.of_surface, &errors_.of_lag}) reduce(*change);
+  for (auto* change : {&errors_.with_depth, &errors_.of_surface, &errors_.of_lag, &errors_.of_drag})
+    reduce(*change);
   for (int side = 0; side < 2; ++side)  // rows, then, after the transposition, columns
     for (std::size_t i = 0; i < kTerms; ++i) {
       Vector<kTerms> row;

@@ -77,9 +77,8 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
   Information info;
   for (std::size_t s = 0; s < kN; ++s) {
     const ProfileCell& cell = sums.cells[s];
-    const std::array<Column, 6> own{{{F::place, kProfileCell_m, s},
+    const std::array<Column, 5> own{{{F::place, kProfileCell_m, s},
                                      {F::added_mass, 1.0, kAddedMass},
-                                     {F::steady_drag, 1.0, kSteadyDrag},
                                      {F::motor, 1.0, kScale},
                                      {F::intercept, prior_.believed_stiffness_N_per_m, kIntercept},
                                      {F::friction, 1.0, kFriction}}};
@@ -93,12 +92,14 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
     info.depth_normal[s] = slope * slope * sum;
     for (const Column& a : own) {
       info.moment[a.term] += a.scale * product(a.feature, F::force);
+      info.of_drag[a.term] += a.scale * product(a.feature, F::steady_drag);
       for (const Column& b : own)
         info.normal[a.term * kTerms + b.term] += a.scale * b.scale * product(a.feature, b.feature);
       info.of_depth[s][a.term] = a.scale * slope * product(a.feature, F::one);
     }
     for (std::size_t i = 0; i < s; ++i) {
       info.moment[i] += kProfileCell_m * product(F::one, F::force);
+      info.of_drag[i] += kProfileCell_m * product(F::one, F::steady_drag);
       info.of_depth[s][i] = kProfileCell_m * slope * sum;
       for (const Column& b : own) {
         const double value = kProfileCell_m * b.scale * product(F::one, b.feature);
@@ -160,7 +161,6 @@ double ProfileSolver::add_shared_prior(Information& info, double smoothness_m, d
   const double mass = 1.0 / (joint.added_mass_factor_sd * joint.added_mass_factor_sd);
   info.normal[kAddedMass * kTerms + kAddedMass] += mass;
   info.moment[kAddedMass] += mass * joint.added_mass_factor;
-  info.normal[kSteadyDrag * kTerms + kSteadyDrag] += 1.0 / (prior_.steady_drag_sd * prior_.steady_drag_sd);
   const double scale_sd = std::max(joint.force_scale_relative, 1e-6);
   info.normal[kScale * kTerms + kScale] += 1.0 / (scale_sd * scale_sd);
   info.normal[kIntercept * kTerms + kIntercept] +=
@@ -258,7 +258,7 @@ std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_
           -kProfileCell_m * m[s],
           -prior_.believed_stiffness_N_per_m * m[kIntercept],
           -m[kAddedMass],
-          -m[kSteadyDrag],
+          0.0,
           0.0,
           -slope_N_per_m_[s] * prior_.depth_lag_s,
           -m[kFriction],

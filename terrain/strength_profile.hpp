@@ -27,20 +27,21 @@
 // q and r are the spectral densities of the noise of acceleration and height. (Gain K = (2 a, 2 a^2), so the
 // error decays and turns with a, and (exp((A - K C) t) P)_11 = P_11 exp(-a t) cos(a t).) So D grows like a
 // random walk at first and is bounded later. A cell has one D, that at the mean time of its samples.
-// A drag that does not fade as the cone of grains is complete has the form of a curve in a single stride,
-// because the foot slows down with depth. Only strides of different speeds tell them apart, so its prior
-// (zero for the believed bed) widens the band of a fast stride. The smoothness length L and the spread s are
-// integrated over a grid by their marginal likelihood, so the band includes their uncertainty (Rasmussen &
-// Williams 2006, section 5.2). No sample of a stride shows the depth error D: a curve that is shifted or
-// stretched is a curve, too. Only the prior of kappa prefers one of them, the one that is nearer to the
-// believed bed, which on ground that hardens is too soft. Therefore D is not fitted. The normal equations N x
-// = m are those without D, and D keeps the distribution that it had before the stride (cut model, Plummer
-// 2015, Statistics and Computing 25, 37). It changes m by B D, D of each cell, so with S = B cov(D) B^T the
-// estimate has the covariance
+// The smoothness length L and the spread s are integrated over a grid by their marginal likelihood, so the
+// band includes their uncertainty (Rasmussen & Williams 2006, section 5.2).
+// No sample of a stride shows the depth error D: a curve that is shifted or stretched is a curve, too. Only
+// the prior of kappa prefers one of them, the one that is nearer to the believed bed, which on ground that
+// hardens is too soft. Therefore D is not fitted. The normal equations N x = m are those without D, and D
+// keeps the distribution that it had before the stride (cut model, Plummer 2015, Statistics and Computing 25,
+// 37). It changes m by B D, D of each cell, so with S = B cov(D) B^T the estimate has the covariance
 //   N^-1 + N^-1 S N^-1
 // F' in B is taken from the previous posterior, in three passes.
 // The measured force depends on the measured acceleration, F = M_f (a + g) + ..., so the likelihood of c has
 // the Jacobian prod (1 + c m_a / M_f). Without it a rough curve would be interpreted as little added mass.
+// lambda is the drag that does not fade as the cone of grains is complete. In a single stride it has the form
+// of a curve, because the foot slows down with depth. In several strides the errors of the depth have the
+// form of a drag: a foot that is deeper than estimated is slower than others at the same estimated depth. So
+// lambda is not fitted either. It keeps its prior, zero for the believed bed, and is the same in all strides.
 // The lag, and a part of d, are the same on all places: contact is detected later on soft ground and at low
 // speed. No number of strides averages them out, so S holds their products between strides.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
@@ -72,8 +73,6 @@ struct StrengthProfile {
                                                     // strides
   double added_mass_factor = 0.0;
   double added_mass_factor_sd = 0.0;
-  double steady_drag_coefficient = 0.0;
-  double steady_drag_coefficient_sd = 0.0;
   double smoothness_m = 0.0;     // posterior mean of L
   double spread_relative = 0.0;  // posterior mean of s
   double joint_friction_N = 0.0;
@@ -92,8 +91,6 @@ struct StrengthProfile {
     visit("observations", self.observations);
     visit("added_mass_factor", self.added_mass_factor);
     visit("added_mass_factor_sd", self.added_mass_factor_sd);
-    visit("steady_drag_coefficient", self.steady_drag_coefficient);
-    visit("steady_drag_coefficient_sd", self.steady_drag_coefficient_sd);
     visit("smoothness_m", self.smoothness_m);
     visit("spread_relative", self.spread_relative);
     visit("joint_friction_N", self.joint_friction_N);
@@ -120,12 +117,11 @@ ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept
 // Estimates the profile from all strides of a trial so far.
 class ProfileSolver {
  public:
-  static constexpr std::size_t kShared = kProfileCells + 4;  // kappa, c, e, z0, lambda
+  static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
   static constexpr std::size_t kTerms = kShared + 1;         // and f
 
   static constexpr std::size_t kAddedMass = kProfileCells, kScale = kProfileCells + 1,
-                               kIntercept = kProfileCells + 2, kSteadyDrag = kProfileCells + 3,
-                               kFriction = kProfileCells + 4;
+                               kIntercept = kProfileCells + 2, kFriction = kProfileCells + 3;
 
   template <std::size_t N>
   using Matrix = std::array<double, N * N>;
@@ -176,6 +172,7 @@ class ProfileSolver {
     Vector<kProfileCells> depth_normal{};                  // of each D itself; zero: no sample
     Vector<kProfileCells> depth_moment{};
     Vector<kProfileCells> time_s{}, change_mps{};  // mean time and change of speed since contact
+    Vector<kTerms> of_drag{};                      // change of the moment for a unit of lambda
   };
   struct Posterior {
     Vector<kTerms> mean{};
@@ -187,9 +184,9 @@ class ProfileSolver {
   struct DepthErrors {
     Matrix<kTerms> moment{};      // S
     Vector<kTerms> with_depth{};  // covariance of the moment's change and D
-    // Change of the moment, over all strides, for a unit of the surface's error that all places share, and of
-    // l.
-    Vector<kTerms> of_surface{}, of_lag{};
+    // Change of the moment, over all strides, for a unit of the surface's error that all places share, of l,
+    // and of lambda.
+    Vector<kTerms> of_surface{}, of_lag{}, of_drag{};
     Vector<kTerms> of_earlier_surface{};     // the same of the places before this one
     double mean_m = 0.0, variance_m2 = 0.0;  // of D
   };

@@ -75,8 +75,6 @@ nlohmann::ordered_json profile_json(const StrengthProfile& p, const GroundSummar
           {"observations", observations},
           {"added_mass_factor", p.added_mass_factor},
           {"added_mass_factor_sd", p.added_mass_factor_sd},
-          {"steady_drag_coefficient", p.steady_drag_coefficient},
-          {"steady_drag_coefficient_sd", p.steady_drag_coefficient_sd},
           {"smoothness_m", p.smoothness_m},
           {"shape", name_of(g.shape)},
           {"line",
