@@ -26,7 +26,7 @@ PlacesScore score_of_places(const Curve& common_N) {
   std::normal_distribution<double> normal;
   double inside = 0.0, all = 0.0, width = 0.0, width_of_one = 0.0;
   for (unsigned session = 0; session < kSessions; ++session) {
-    ProfileSolver solver{StiffnessConfig{}};
+    ProfileSolver solver(without_steady_drag());
     for (unsigned place = 0; place < kPlaces; ++place) {
       std::array<double, 24> knots;
       for (double& knot : knots) knot = normal(engine);
@@ -102,10 +102,8 @@ TEST(StrengthProfile, TheErrorThatAllPlacesShareDoesNotAverageOut) {
   constexpr double kDepth_m = 0.030, kTangent_N_per_m = 2000.0;
   constexpr std::uint32_t kPlaces = 40;
   const auto shared_N = ProfileConfig{}.shared_surface_sd_m * kTangent_N_per_m;
-  StiffnessConfig config;
-  // Errors of the torque constant and of the drag do not average out either.
-  config.joint.force_scale_relative = 1e-4;
-  config.profile = ProfileConfig{.steady_drag_sd = 1e-6};
+  StiffnessConfig config = without_steady_drag();
+  config.joint.force_scale_relative = 1e-4;  // an error of the torque constant does not average out either
   ProfileSolver solver(config);
   for (std::uint32_t place = 0; place < kPlaces; ++place)
     solver.add(sums_of([](double z) { return kTangent_N_per_m * z; },

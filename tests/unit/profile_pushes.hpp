@@ -17,6 +17,14 @@ inline double line_N(double z) { return 1500.0 * (z + 0.003 * (1.0 - std::exp(-z
 inline double power_N(double z) { return 49.5 * std::pow(z / 0.030, 1.4); }
 inline double layers_N(double z) { return line_N(z) * (0.7 + 1.8 / (1.0 + std::exp((0.020 - z) / 0.002))); }
 
+// The belief that no drag stays at depth: its error is the same in all strides, so they do not average it
+// out.
+inline StiffnessConfig without_steady_drag() {
+  StiffnessConfig config;
+  config.profile = ProfileConfig{.steady_drag_sd = 1e-6};
+  return config;
+}
+
 struct Push {
   double speed_mps = 0.8;
   double to_m = 0.045;

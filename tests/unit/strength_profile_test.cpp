@@ -53,7 +53,7 @@ TEST(StrengthProfile, BandWidensWhereTheFootWasNot) {
 
 // On ground prepared alike: in a crater a stride has no samples above the depth of the one before.
 TEST(StrengthProfile, PosteriorOfAStrideIsThePriorOfTheNext) {
-  ProfileSolver solver{StiffnessConfig{}};
+  ProfileSolver solver(without_steady_drag());
   solver.add(sums_of(line_N, {.speed_mps = 0.5, .to_m = 0.025}), 1);
   const double deep_before = solver.force_N(0.035).sd, shallow_before = solver.force_N(0.015).sd;
   solver.add(sums_of(line_N, {.speed_mps = 1.0, .to_m = 0.045, .seed = 2}), ProfileSolver::kFreshGround);
