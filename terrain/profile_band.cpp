@@ -34,20 +34,6 @@ double ProfileSolver::slope_change_squared(std::size_t cell) const noexcept {
   return scale * scale * (change * change + std::max(variance, 0.0));
 }
 
-// Variance of a force from what all strides share. `of_force`: change of the force for a unit of each term.
-double ProfileSolver::shared_variance_N2(const Vector<kTerms>& of_force) const noexcept {
-  double surface_N_per_m = 0.0, lag_N_per_s = 0.0;
-  for (std::size_t i = 0; i < kShared; ++i)
-    for (std::size_t j = 0; j < kTerms; ++j) {
-      const double gain = of_force[i] * posterior_.gain[i * kTerms + j];
-      surface_N_per_m += gain * kept_errors_.of_surface[j];
-      lag_N_per_s += gain * kept_errors_.of_lag[j];
-    }
-  const double surface_N = prior_.shared_surface_sd_m * surface_N_per_m;
-  const double lag_N = prior_.depth_lag_sd_s * lag_N_per_s;
-  return surface_N * surface_N + lag_N * lag_N;
-}
-
 ProfilePoint ProfileSolver::force_N(double depth_m, Band band) const noexcept {
   ProfilePoint point;
   if (!within(depth_m)) return kNowhere;
@@ -75,7 +61,10 @@ ProfilePoint ProfileSolver::force_N(double depth_m, Band band) const noexcept {
   const double fluctuation_N2 = fluctuation * fluctuation * (1.0 - 2.0 * std::clamp(gain, 0.0, 1.0));
   const double variance_N2 = std::max(variance + fluctuation_N2, 0.0);
   if (band == Band::narrowable) {
-    point.sd = std::sqrt(std::max(variance_N2 - shared_variance_N2(x), 0.0));
+    double shared_N2 = 0.0;
+    for (std::size_t i = 0; i < kShared; ++i)
+      for (std::size_t j = 0; j < kShared; ++j) shared_N2 += x[i] * posterior_.shared[i * kTerms + j] * x[j];
+    point.sd = std::sqrt(std::max(variance_N2 - shared_N2, 0.0));
     return point;
   }
   // Variance of the curve within a cell: the cell's unresolved scatter, and the change of slope between its

@@ -121,7 +121,7 @@ double ProfileSolver::wander_m2(const ProfileCell& cell) const noexcept {
 }
 
 // Adds the covariance of this stride's part of the moments. Its d has a covariance with those of the strides
-// before, and shares a part with those of other places; l and lambda are the same in all; x is independent of
+// before, and shares a part with those of other places; l is the same in all; x is independent of
 // everything.
 void ProfileSolver::take_depth_errors(const Information& info) noexcept {
   errors_ = kept_errors_;
@@ -130,8 +130,7 @@ void ProfileSolver::take_depth_errors(const Information& info) noexcept {
   const double surface_m2 = prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
   const double lag_s2 = prior_.depth_lag_sd_s * prior_.depth_lag_sd_s;
   const auto& surface_before = kept_errors_.of_earlier_surface;
-  const double drag2 = prior_.steady_drag_sd * prior_.steady_drag_sd;
-  const auto &lag_before = kept_errors_.of_lag, &drag_before = kept_errors_.of_drag;
+  const auto& lag_before = kept_errors_.of_lag;
   Vector<kTerms> all{}, lag{};  // change of the moment for a unit of d, and of l
   for (std::size_t s = 0; s < kProfileCells; ++s) {
     if (info.depth_normal[s] == 0.0) continue;
@@ -150,8 +149,7 @@ void ProfileSolver::take_depth_errors(const Information& info) noexcept {
       errors_.moment[i * kTerms + j] +=
           with[i] * all[j] + all[i] * with[j] +
           surface_m2 * (surface_before[i] * all[j] + all[i] * surface_before[j]) +
-          lag_s2 * (lag_before[i] * lag[j] + lag[i] * lag_before[j]) +
-          drag2 * (drag_before[i] * info.of_drag[j] + info.of_drag[i] * (drag_before[j] + info.of_drag[j]));
+          lag_s2 * (lag_before[i] * lag[j] + lag[i] * lag_before[j]);
   for (std::size_t i = 0; i < kTerms; ++i) {
     errors_.of_surface[i] += all[i];
     errors_.of_lag[i] += lag[i];

@@ -197,6 +197,17 @@ ProfileSolver::Matrix<ProfileSolver::kTerms> ProfileSolver::covariance_of(
   return covariance;
 }
 
+// Adds the covariance of the mean that an error with this standard deviation causes. `of_error`: change of
+// the moment, over all strides, for a unit of it.
+void ProfileSolver::add_error(const Matrix<kTerms>& gain, const Vector<kTerms>& of_error, double sd,
+                              Matrix<kTerms>& covariance) const noexcept {
+  Vector<kTerms> change{};
+  for (std::size_t i = 0; i < kTerms; ++i)
+    for (std::size_t k = 0; k < kTerms; ++k) change[i] += sd * gain[i * kTerms + k] * of_error[k];
+  for (std::size_t i = 0; i < kTerms; ++i)
+    for (std::size_t j = 0; j < kTerms; ++j) covariance[i * kTerms + j] += change[i] * change[j];
+}
+
 // Combines the posterior over the grid into one mean and, in the last pass, one covariance.
 void ProfileSolver::integrate(const Information& data, bool last) noexcept {
   constexpr double kNegligible = 0.01;
@@ -231,7 +242,12 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
     if (weight[g] == 0.0) continue;
     solve_at(g, data, p);
     const Matrix<kTerms> gain = Cholesky<kTerms>(p.gain).inverse();
-    const Matrix<kTerms> covariance = covariance_of(gain);
+    Matrix<kTerms> covariance = covariance_of(gain);
+    const double root = std::sqrt(weight[g]);
+    add_error(gain, errors_.of_surface, root * prior_.shared_surface_sd_m, posterior_.shared);
+    add_error(gain, errors_.of_lag, root * prior_.depth_lag_sd_s, posterior_.shared);
+    add_error(gain, errors_.of_drag, root * prior_.steady_drag_sd, posterior_.shared);
+    add_error(gain, errors_.of_drag, prior_.steady_drag_sd, covariance);
     for (std::size_t i = 0; i < gain.size(); ++i) posterior_.gain[i] += weight[g] * gain[i];
     posterior_.smoothness_m += weight[g] * p.smoothness_m;
     posterior_.spread += weight[g] * p.spread;

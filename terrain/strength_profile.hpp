@@ -177,7 +177,8 @@ class ProfileSolver {
   struct Posterior {
     Vector<kTerms> mean{};
     Matrix<kTerms> covariance{};
-    Matrix<kTerms> gain{};  // N^-1: change of the mean for a unit change of the moment
+    Matrix<kTerms> gain{};    // N^-1: change of the mean for a unit change of the moment
+    Matrix<kTerms> shared{};  // the part of the covariance that all strides share
     double smoothness_m = 0.0, spread = 0.0;
   };
   // Errors of the depth, which are not fitted.
@@ -201,6 +202,8 @@ class ProfileSolver {
                   const Vector<kTerms>& mean) noexcept;
   void integrate(const Information& information, bool last) noexcept;
   Matrix<kTerms> covariance_of(const Matrix<kTerms>& gain) const noexcept;
+  void add_error(const Matrix<kTerms>& gain, const Vector<kTerms>& of_error, double sd,
+                 Matrix<kTerms>& covariance) const noexcept;
   double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
   void take_responses(const ProfileSums& sums) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
@@ -224,7 +227,6 @@ class ProfileSolver {
   double scatter_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
   ProfilePoint tangent_N_per_m(std::size_t cell) const noexcept;
   double slope_change_squared(std::size_t cell) const noexcept;
-  double shared_variance_N2(const Vector<kTerms>& of_force) const noexcept;
   double residual_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
 
   // Sums over the strides in a cell [observations, N^2]: squared residuals, and their expectation.
