@@ -152,7 +152,7 @@ TEST(ProfileMemory, ASlowFootOnSoftGroundIsDeepWhenItIsFound) {
     EXPECT_GT(depth.variance_m2, std::pow(prior.contact_force_sd_N / stiffness, 2));
   }
   EXPECT_NEAR(contact(1000.0, 0.6).mean_m, prior.contact_time_s * 0.6, 1e-12);
-  EXPECT_LT(prior.contact_time_s, 0.0);  // the accelerometer feels the blow before the motors reply
+  EXPECT_LT(prior.contact_time_s, 0.0);         // the accelerometer feels the blow before the motors reply
   EXPECT_EQ(contact(1000.0, 0.0).mean_m, 0.0);  // contact was not found by its force
 }
 
