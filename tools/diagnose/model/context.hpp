@@ -59,7 +59,7 @@ struct PlantFacts {
   bool is_driven = true;   // false: no trial of an axis has a torque of its drive
   bool moves = true;       // false: the axis is held still, so its friction is not observable
   bool masses_differ = false;
-  bool rises_and_falls = false;  // a body moves through its medium in both directions
+  bool rises_and_falls = false;                         // a body moves through its medium in both directions
   double depth_m = 0.04, foot_radius_m = 0.04;          // depth in the bed; radius of the foot
   double foot_radius_ratio = 1.0;                       // largest to smallest radius over the trials
   double range_of_pushes = 0.0, range_of_wait_s = 0.0;  // largest minus smallest value of the set-up

@@ -10,7 +10,8 @@ namespace sandhopper::diagnose {
 // Parameters of the body, the medium and the bed: numbers of the belief after the edits.
 struct FallingFigures {
   double gravity_mps2, mass_kg, area_m2, volume_m3, density_kg_per_m3, drag_coefficient,
-      linear_drag_N_s_per_m, buoyancy_factor, added_mass_factor, medium_mps, surface_height_m, bed_stiffness_N_per_m;
+      linear_drag_N_s_per_m, buoyancy_factor, added_mass_factor, medium_mps, surface_height_m,
+      bed_stiffness_N_per_m;
 
   FallingFigures(const Belief& belief, const Edits& edits);
 };
