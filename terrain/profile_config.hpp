@@ -15,9 +15,9 @@ struct ProfileConfig {
   // Depth at contact (strength_profile.hpp). The mean force at which contact is found is less than the
   // threshold by `contact_early_N`, because the first of several noisy samples exceeds it. The depth belongs
   // to the motors' reply, and the accelerometer can feel the blow after it: in the mean the foot is
-  // `contact_time_s` after the surface, which is negative. Means and standard deviations in simulated first
-  // strides (`hop experiment beds` prints the mean that remains); the mean time is -0.161 to -0.168 ms on
-  // each of nine families.
+  // `contact_time_s` after the surface, which is negative. That time is -0.161 to -0.168 ms on each of nine
+  // families (`hop experiment beds` prints what remains of it); the others are means and standard deviations
+  // in 1200 simulated first strides on each of six families.
   double contact_early_N = 0.3;
   double contact_force_sd_N = 0.25;
   double contact_time_s = -0.00017;

@@ -242,13 +242,16 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
     if (weight[g] == 0.0) continue;
     solve_at(g, data, p);
     const Matrix<kTerms> gain = Cholesky<kTerms>(p.gain).inverse();
-    Matrix<kTerms> covariance = covariance_of(gain);
-    const double root = std::sqrt(weight[g]);
-    add_error(gain, errors_.of_surface, root * prior_.shared_surface_sd_m, posterior_.shared);
-    add_error(gain, errors_.of_lag, root * prior_.depth_lag_sd_s, posterior_.shared);
-    add_error(gain, errors_.of_drag, root * prior_.steady_drag_sd, posterior_.shared);
-    add_error(gain, errors_.of_drag, prior_.steady_drag_sd, covariance);
-    for (std::size_t i = 0; i < gain.size(); ++i) posterior_.gain[i] += weight[g] * gain[i];
+    Matrix<kTerms> covariance = covariance_of(gain), shared{};
+    add_error(gain, errors_.of_drag, prior_.steady_drag_sd, shared);
+    for (std::size_t i = 0; i < gain.size(); ++i) covariance[i] += shared[i];
+    // The moment's covariance holds these two already.
+    add_error(gain, errors_.of_surface, prior_.shared_surface_sd_m, shared);
+    add_error(gain, errors_.of_lag, prior_.depth_lag_sd_s, shared);
+    for (std::size_t i = 0; i < gain.size(); ++i) {
+      posterior_.gain[i] += weight[g] * gain[i];
+      posterior_.shared[i] += weight[g] * shared[i];
+    }
     posterior_.smoothness_m += weight[g] * p.smoothness_m;
     posterior_.spread += weight[g] * p.spread;
     for (std::size_t i = 0; i < kTerms; ++i)

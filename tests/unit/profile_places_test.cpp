@@ -64,13 +64,14 @@ TEST(StrengthProfile, BandOfSeveralPlacesHoldsTheirCommonCurve) {
 // A drag that does not fade with depth has the form of a curve in a stride. The band of a fast stride counts
 // it, that of a slow one hardly, and that of many strides counts that it is the same in all.
 TEST(StrengthProfile, DragThatStaysAtDepthIsNoStrength) {
-  constexpr double kDrag = 0.5, kFast_mps = 1.4, kSlow_mps = 0.3;
-  const auto solved_with = [](double prior_sd, double speed_mps, unsigned places) {
+  constexpr double kFast_mps = 1.4, kSlow_mps = 0.3;
+  double drag = 0.5;
+  const auto solved_with = [&](double prior_sd, double speed_mps, unsigned places) {
     StiffnessConfig config;
     config.profile = ProfileConfig{.steady_drag_sd = prior_sd};
     ProfileSolver solver(config);
     for (unsigned place = 0; place < places; ++place)
-      solver.add(sums_of(line_N, {.speed_mps = speed_mps, .steady_drag = kDrag, .seed = place + 1}),
+      solver.add(sums_of(line_N, {.speed_mps = speed_mps, .steady_drag = drag, .seed = place + 1}),
                  place == 0 ? 1 : ProfileSolver::kFreshGround);
     return solver;
   };
@@ -93,7 +94,10 @@ TEST(StrengthProfile, DragThatStaysAtDepthIsNoStrength) {
            solved_with(1e-6, speed_mps, 1).force_N(kDepth_m).sd;
   };
   EXPECT_GT(widening(kFast_mps), 1.3);
+  EXPECT_LT(widening(kFast_mps), 3.5);
   EXPECT_LT(widening(kSlow_mps), 1.1);
+  drag = 1.0;  // the largest that is reported
+  EXPECT_GE(held(solved_with(sd, kFast_mps, 1)), 0.9);
 }
 
 // However many places there are, the band stays as wide as the error that they share. No stride narrows this

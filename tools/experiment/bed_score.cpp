@@ -90,7 +90,7 @@ struct Answer {
   StrengthProfile profile{};
   GroundSummary ground{};
   GroundEvents events{};
-  ProfileSolver::ContactDepth contact{};  // of the first stride
+  ProfileSolver::ContactDepth contact{};  // expected after the stride
   double solve_s = 0.0, search_s = 0.0;
 };
 
@@ -108,9 +108,9 @@ std::vector<Answer> answers_to(const BedTrial& trial, const StiffnessConfig& con
     solver.add(stride.sums.profile, stride.sums.summary.stride);
     answer.ground = summarise(solver);
     answer.profile = solver.profile();
+    answer.solve_s = seconds_since(start);
     const auto& sums = stride.sums.profile;
     answer.contact = solver.contact_depth(sums.contact_mps, sums.contact_added_mass_kg_per_m);
-    answer.solve_s = seconds_since(start);
     const auto search = std::chrono::steady_clock::now();
     answer.events = find_ground_events(stride.events, ground_event_config(config));
     answer.search_s = seconds_since(search);

@@ -46,6 +46,10 @@ std::vector<const SetFit*> nearest(const Search& search, std::size_t most_effect
   return order;
 }
 
+LogEvidence evidence_of(const Problem& problem, const SetFit& fit) {
+  return log_evidence(problem, fit.fit, linearised_at(problem, fit.fit.point));
+}
+
 // kNoEvidence if it cannot be computed, e.g. because a derivative is not finite.
 double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence& evidence) {
   const double log_mass = evidence.value + log_prior(problem, fit.set.size());
@@ -61,8 +65,7 @@ void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& 
   double of_best = 0.0;
   for (const SetFit* fit : nearest(search, 1)) {
     if (laws_of(problem, fit->fit.point.hypothesis).empty()) continue;
-    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
-    order.emplace_back(log_mass_of(problem, *fit, evidence), fit);
+    order.emplace_back(log_mass_of(problem, *fit, evidence_of(problem, *fit)), fit);
     if (fit == &search.best()) of_best = order.back().first;
   }
   std::ranges::sort(order, std::greater<>{}, [](const auto& one) { return one.first; });
@@ -84,7 +87,7 @@ std::optional<LikelyLaw> likeliest_law(Problem& problem, const Search& search) {
   std::optional<LikelyLaw> likeliest;
   double most = kNoEvidence;
   for (const SetFit* fit : {&search.best(), &search.null()}) {
-    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
+    const auto evidence = evidence_of(problem, *fit);
     const auto laws = unknown_laws(problem, fit->fit.point, evidence.times);
     if (laws.empty()) continue;
     const double log_mass = log_mass_of(problem, *fit, evidence) + laws.front().log_factor;
@@ -107,21 +110,18 @@ void limit_by_evidence(Problem& problem, const Search& search, Posterior& belief
   close.push_back(&search.best());
   problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
   std::vector<double> log_mass;
-  for (const SetFit* fit : close)
-    log_mass.push_back(
-        log_mass_of(problem, *fit, log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point))));
+  for (const SetFit* fit : close) log_mass.push_back(log_mass_of(problem, *fit, evidence_of(problem, *fit)));
   problem.repeatable_error = {};
   const double most = *std::ranges::max_element(log_mass);
   for (auto& [candidate, probability] : belief.probability) {
+    std::vector<std::size_t> names{candidate};
+    if (const auto others = belief.alternatives.find(candidate); others != belief.alternatives.end())
+      names.insert(names.end(), others->second.begin(), others->second.end());
     double with = 0.0, total = 0.0;
     for (std::size_t i = 0; i < close.size(); ++i) {
-      const auto holds = [&](std::size_t name) { return std::ranges::count(close[i]->set, name) > 0; };
       const double mass = std::exp(log_mass[i] - most);
-      const auto alternatives = belief.alternatives.find(candidate);
       total += mass;
-      if (holds(candidate) ||
-          (alternatives != belief.alternatives.end() && std::ranges::any_of(alternatives->second, holds)))
-        with += mass;
+      if (std::ranges::find_first_of(close[i]->set, names) != close[i]->set.end()) with += mass;
     }
     if (with / total >= probability) continue;
     log.push_back(fmt::format("evidence limits {} from {:.3f} to {:.3f}",
@@ -134,7 +134,7 @@ void tell_evidence(Problem& problem, const Search& search, std::vector<std::stri
   problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
   std::vector<WeighedAnswer> all;
   for (const SetFit* fit : nearest(search, kAnySize)) {
-    const auto evidence = log_evidence(problem, fit->fit, linearised_at(problem, fit->fit.point));
+    const auto evidence = evidence_of(problem, *fit);
     const double log_mass = log_mass_of(problem, *fit, evidence);
     all.push_back({set_text(problem, fit->set), log_mass});
     if (fit != &search.best() && !fit->set.empty()) continue;

@@ -15,8 +15,8 @@ namespace {
 
 // Standard deviation of the condition that the simulated fall ends at the fitted touchdown.
 constexpr double kTouchdownAgrees_s = 1e-4;
-constexpr double kGoesBothWays = 0.1;
-constexpr double kSinks = 0.5;  // share of the free-fall speed, below which the body sinks slowly
+constexpr double kGoesBothWays = 0.1;  // share of a body's way, of the part up and of the part down
+constexpr double kSinks = 0.5;         // share of the free-fall speed, below which the body sinks slowly
 
 // True if a body goes up by more than a tenth of its way before it comes down.
 bool rises_and_falls(const Samples& heights) {
