@@ -101,13 +101,13 @@ std::span<const Event> TrialRig::events() const { return session_->controller.ev
 void TrialRig::turn(Request asked) {
   cycle_number_ += missed_cycles() + 1;
   ++turns_;
-  output_ = &session_->cycle.run(
-      {.time_ns = origin_ns_ + static_cast<std::int64_t>(cycle_number_) * kCyclePeriod_ns,
-       .cycle = cycle_number_,
-       .overruns = overruns_,
-       .watchdog_stall_ns = watchdog_trips_ ? 25 * kCyclePeriod_ns : 0,
-       .wall_clock_step_ns = clock_steps_ ? kClockStep_ns : 0,
-       .request = asked == Request::none ? request() : asked});
+  output_ =
+      session_->cycle.run({.time_ns = origin_ns_ + static_cast<std::int64_t>(cycle_number_) * kCyclePeriod_ns,
+                           .cycle = cycle_number_,
+                           .overruns = overruns_,
+                           .watchdog_stall_ns = watchdog_trips_ ? 25 * kCyclePeriod_ns : 0,
+                           .wall_clock_step_ns = clock_steps_ ? kClockStep_ns : 0,
+                           .request = asked == Request::none ? request() : asked});
   watchdog_trips_ = clock_steps_ = false;
   session_->aftermath.serve();
   for (const auto& event : events()) {
@@ -115,7 +115,7 @@ void TrialRig::turn(Request asked) {
     armed_at_ = cycle_number_;
     ready_ = true;
   }
-  in_phase_cycles_ = in_phase(phase_, *output_, ready_) ? in_phase_cycles_ + 1 : 0;
+  in_phase_cycles_ = in_phase(phase_, output_, ready_) ? in_phase_cycles_ + 1 : 0;
 }
 
 bool TrialRig::ready_to_break() const { return in_phase_cycles_ == cycles_into(phase_); }

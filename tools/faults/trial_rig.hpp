@@ -27,7 +27,8 @@ class TrialRig {
   std::uint64_t turns() const { return turns_; }
   // Present time of the world; it continues over sessions.
   double time_s() const;
-  const StepOutput& output() const { return *output_; }
+  // Of the last cycle that ran, also when that was in an earlier session.
+  const StepOutput& output() const { return output_; }
   const SensorFrame& frame() const;
   // Events of the last cycle.
   std::span<const Event> events() const;
@@ -61,7 +62,7 @@ class TrialRig {
   World world_;
   BenchBoard board_;
   std::unique_ptr<Session> session_;
-  const StepOutput* output_ = nullptr;
+  StepOutput output_;
   std::int64_t origin_ns_ = 0;  // time of the session's cycle 0
   std::uint64_t cycle_number_ = 0, turns_ = 0, armed_at_ = 0, in_phase_cycles_ = 0;
   std::uint32_t overruns_ = 0;
