@@ -129,11 +129,11 @@ TEST(DiagnoseSearch, TheEvidenceLimitsHowProbableANameIs) {
     EXPECT_TRUE(search.name({name}));
     Posterior belief;
     belief.apart = apart;
-    belief.probability[name] = from;
+    belief.mass[name] = from;
     belief.alternatives[name] = std::move(alternatives);
     std::vector<std::string> log;
     limit_by_evidence(problem, search, belief, log);
-    return belief.probability[name];
+    return belief.mass[name];
   };
   constexpr double kEverySet = 1e9, kNoOther = -1e9;
   EXPECT_GT(limited(right, 0.98, kEverySet), 0.95);

@@ -138,6 +138,32 @@ TEST(DiagnoseKnownTo, ANumberThatMayBeOffIsFittedForAllTrialsTogether) {
   EXPECT_EQ(held.effects.front().id, "axis.coulomb");
 }
 
+// Presses whose load cell reads 10 % too little, in a bed whose stiffness is known this well.
+Diagnosis of_weak_readings(std::vector<KeySpread> known_to) {
+  auto recordings = presses([](double, double) { return 0.0; }, 45, 6);
+  for (auto& trial : recordings.trials)
+    for (double& force_N : trial.channels.at("force_N")) force_N *= 0.9;
+  recordings.belief.known_to = std::move(known_to);
+  for (auto& belief : recordings.beliefs) belief.known_to = recordings.belief.known_to;
+  return diagnose(recordings);
+}
+
+bool is_named(const Diagnosis& d, const std::string& id) {
+  return std::ranges::any_of(d.effects, [&](const FoundEffect& e) {
+    return e.id == id || std::ranges::find(e.indistinguishable_from, id) != e.indistinguishable_from.end();
+  });
+}
+
+// A weak bed and a weak reading look alike. What is known of the bed decides between them.
+TEST(DiagnoseKnownTo, SettlesAClass) {
+  const auto open = of_weak_readings({});
+  EXPECT_TRUE(is_named(open, "terrain.stiffness"));
+  EXPECT_TRUE(is_named(open, "load_cell.gain"));
+  const auto known = of_weak_readings({{"stiffness_relative", "terrain.stiffness_N_per_m", 0.01, true}});
+  EXPECT_FALSE(is_named(known, "terrain.stiffness"));
+  EXPECT_TRUE(is_named(known, "load_cell.gain"));
+}
+
 }  // namespace
 }  // namespace diagnose
 }  // namespace sandhopper

@@ -10,6 +10,7 @@
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/discrepancy/unexplained.hpp"
 #include "tools/diagnose/evidence/beside.hpp"
+#include "tools/diagnose/evidence/calibration.hpp"
 #include "tools/diagnose/evidence/posterior.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
@@ -25,7 +26,7 @@ constexpr double kLikelierThanNot = 0.5;
 // If the named effects explain less than this fraction of the held-out energy that can be explained, the
 // verdict is unknown physics.
 constexpr double kMostOfTheGap = 0.5;
-// Largest probabilities if names close most of the gap and something is left: the rest may be an error in the
+// Largest masses if names close most of the gap and something is left: the rest may be an error in the
 // form of a named law. Names have no more, either, if the rest was not looked at: with too few trials to
 // leave one out, or after a limit of time.
 constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
@@ -45,7 +46,7 @@ void report_what_is_left(const Problem& problem, const Unexplained& rest, Diagno
 }
 
 // Sets the verdict and its effects. Effects that close most of the gap are reported even if something is
-// left. The probability of each is multiplied by the fraction of the gap that they close together.
+// left. The mass of each is multiplied by the fraction of the gap that they close together.
 void report_verdict(const Problem& problem, const Search& search, const Posterior& belief,
                     const Unexplained& rest, Diagnosis& diagnosis) {
   const bool too_few = problem.trials.size() < kTooFewTrials, named = !search.best().set.empty();
@@ -59,18 +60,17 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
   diagnosis.gap_closed = rest.gap_closed;
   if (rest.unknown || rest.law)
     for (auto& effect : diagnosis.effects)
-      if (!effect.is_unknown()) effect.probability *= rest.gap_closed;
+      if (!effect.is_unknown()) effect.mass *= rest.gap_closed;
   if (too_few || search.stopped())
-    for (auto& effect : diagnosis.effects)
-      effect.probability = std::min(effect.probability, kNameBesideUnknown);
+    for (auto& effect : diagnosis.effects) effect.mass = std::min(effect.mass, kNameBesideUnknown);
   const bool by_names = rest.gap_closed > kMostOfTheGap &&
                         std::ranges::any_of(diagnosis.effects, [](const FoundEffect& effect) {
-                          return !effect.is_unknown() && effect.probability > kLikelierThanNot;
+                          return !effect.is_unknown() && effect.mass > kLikelierThanNot;
                         });
   if (by_names)
     for (auto& effect : diagnosis.effects) {
-      if (effect.is_unknown()) effect.probability = std::min(effect.probability, kUnknownBesideNames);
-      if (rest.unknown) effect.probability = std::min(effect.probability, kNameBesideUnknown);
+      if (effect.is_unknown()) effect.mass = std::min(effect.mass, kUnknownBesideNames);
+      if (rest.unknown) effect.mass = std::min(effect.mass, kNameBesideUnknown);
     }
   if (!by_names && rest.unknown) {
     diagnosis.verdict = Verdict::unknown_physics;
@@ -210,6 +210,8 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& asked) {
   if (!search.stopped()) limit_by_evidence(problem, search, belief, diagnosis.log);
   if (options.tell_evidence) tell_evidence(problem, search, diagnosis.log);
   report_verdict(problem, search, belief, rest, diagnosis);
+  for (auto& effect : diagnosis.effects)
+    effect.probability = effect.is_unknown() ? effect.mass : calibrated(effect.mass);
   report_broken_rules(problem.plant->broken_rules(clean.trials, clean.beliefs), diagnosis);
   report_data_faults(faults, diagnosis);
   report_around(problem, recordings, clean, belief, rest, answer, search, options, diagnosis);

@@ -32,6 +32,9 @@ struct FoundEffect {
   std::string equation;
   std::vector<FoundParameter> parameters;
   double probability = 0.0;
+  // Posterior mass of the sets that hold this name or one of its class, lowered where a rule of the answer
+  // limits it. The probability is its calibrated value. 1: not from a posterior.
+  double mass = 1.0;
   // Fraction of the explained deviance that held-out trials lose without this effect.
   double heldout_gain = 0.0;
   double p_value = 1.0;

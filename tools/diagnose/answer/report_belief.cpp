@@ -13,12 +13,9 @@ constexpr double kNinetyFivePercent = 1.96;  // standard deviations of a 95 % in
 // Number of trials used if the simulation is costly.
 constexpr std::size_t kTrialsOfCostly = 8;
 
-// A rig's stiffness is simulated as a compliance, its reciprocal.
 Edits with_number(Edits edits, const std::string& key) {
-  if (key == "rig.stiffness_N_per_m")
-    edits.scale("rig.compliance_m_per_N", 1.0 / (1.0 + kShareMoved));
-  else
-    edits.scale(key, 1.0 + kShareMoved);
+  const auto simulated = simulated_key(key);
+  edits.scale(simulated, simulated == key ? 1.0 + kShareMoved : 1.0 / (1.0 + kShareMoved));
   return edits;
 }
 

@@ -119,9 +119,13 @@ std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std:
   return found;
 }
 
-// Effects indistinguishable from a candidate: by their law, or on these recordings.
+// Effects indistinguishable from a candidate: by their law, or on these recordings. Those of the same law
+// that contradict [known_to] are left out if the candidate does not.
 std::vector<std::string> class_of(const Problem& problem, std::size_t c, const Posterior& belief) {
   std::vector<std::string> list = problem.candidates[c].effect->same_as;
+  if (!problem.candidates[c].contradicts_belief)
+    for (const auto& other : problem.candidates)
+      if (other.contradicts_belief) std::erase(list, other.effect->id);
   if (const auto it = belief.alternatives.find(c); it != belief.alternatives.end())
     for (const auto other : it->second) {
       const auto& id = problem.candidates[other].effect->id;
@@ -131,20 +135,20 @@ std::vector<std::string> class_of(const Problem& problem, std::size_t c, const P
   return list;
 }
 
-// Sorts by explained deviance and limits the probabilities of the effects after the first.
+// Sorts by explained deviance and limits the masses of the effects after the first.
 void weigh_beside_each_other(std::vector<FoundEffect>& effects) {
   std::ranges::sort(effects, std::greater<>{}, &FoundEffect::heldout_gain);
   bool form_in_doubt = false;
   for (std::size_t i = 1; i < effects.size(); ++i) {
     auto& beside = effects[i];
     if (beside.is_unknown()) continue;
-    beside.probability = calibrated_beside(beside.probability, beside.heldout_gain);
+    beside.mass = mass_beside(beside.mass, beside.heldout_gain);
     form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
   }
   // A small sensor fault may only correct the form of the large effect's law. Then the large effect is in
   // doubt, too.
   if (form_in_doubt && !is_fault(effects.front()))
-    effects.front().probability = std::min(effects.front().probability, kMostBeside);
+    effects.front().mass = std::min(effects.front().mass, kMostBeside);
 }
 
 }  // namespace
@@ -182,14 +186,14 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
     found.equation = candidate.effect->equation;
     found.parameters = parameters_of(candidate, point.hypothesis.values[e], covariance, quantile, at);
     at += static_cast<Index>(candidate.parameters.size());
-    found.probability = belief.probability.contains(c) ? belief.probability.at(c) : 0.0;
+    found.mass = belief.mass.contains(c) ? belief.mass.at(c) : 0.0;
     found.indistinguishable_from = class_of(problem, c, belief);
     for (const auto& evidence : best.evidence)
       if (evidence.candidate == c) {
         found.heldout_gain = std::min(1.0, held_out_loss(search, evidence) / explained);
         found.p_value = std::max(evidence.p_value, 1e-300);
         found.typicals = evidence.typicals;
-        if (evidence.weak) found.probability = std::min(found.probability, kMostOfWeak);
+        if (evidence.weak) found.mass = std::min(found.mass, kMostOfWeak);
       }
     diagnosis.effects.push_back(std::move(found));
   }

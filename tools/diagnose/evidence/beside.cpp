@@ -52,7 +52,7 @@ LogEvidence evidence_of(const Problem& problem, const SetFit& fit) {
 
 // kNoEvidence if it cannot be computed, e.g. because a derivative is not finite.
 double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence& evidence) {
-  const double log_mass = evidence.value + log_prior(problem, fit.set.size());
+  const double log_mass = evidence.value + log_prior(problem, fit.set);
   return std::isfinite(log_mass) ? log_mass : kNoEvidence;
 }
 
@@ -113,20 +113,20 @@ void limit_by_evidence(Problem& problem, const Search& search, Posterior& belief
   for (const SetFit* fit : close) log_mass.push_back(log_mass_of(problem, *fit, evidence_of(problem, *fit)));
   problem.repeatable_error = {};
   const double most = *std::ranges::max_element(log_mass);
-  for (auto& [candidate, probability] : belief.probability) {
+  for (auto& [candidate, mass] : belief.mass) {
     std::vector<std::size_t> names{candidate};
     if (const auto others = belief.alternatives.find(candidate); others != belief.alternatives.end())
       names.insert(names.end(), others->second.begin(), others->second.end());
     double with = 0.0, total = 0.0;
     for (std::size_t i = 0; i < close.size(); ++i) {
-      const double mass = std::exp(log_mass[i] - most);
-      total += mass;
-      if (std::ranges::find_first_of(close[i]->set, names) != close[i]->set.end()) with += mass;
+      const double one = std::exp(log_mass[i] - most);
+      total += one;
+      if (std::ranges::find_first_of(close[i]->set, names) != close[i]->set.end()) with += one;
     }
-    if (with / total >= probability) continue;
+    if (with / total >= mass) continue;
     log.push_back(fmt::format("evidence limits {} from {:.3f} to {:.3f}",
-                              problem.candidates[candidate].label(), probability, with / total));
-    probability = with / total;
+                              problem.candidates[candidate].label(), mass, with / total));
+    mass = with / total;
   }
 }
 

@@ -25,8 +25,8 @@ inline double calibrated(double weight) {
 // campaigns that set these two numbers, 4 of 7 such effects were right.
 inline constexpr double kSmallShare = 0.13;
 inline constexpr double kMostBeside = 0.7;
-inline double calibrated_beside(double probability, double share_of_explained) {
-  return share_of_explained < kSmallShare ? std::min(probability, kMostBeside) : probability;
+inline double mass_beside(double mass, double share_of_explained) {
+  return share_of_explained < kSmallShare ? std::min(mass, kMostBeside) : mass;
 }
 
 // Largest probability of an effect that is named alone on evidence too weak to name it beside others.

@@ -10,7 +10,10 @@ struct Limits {
   double exchangeable = 20.0;
   double effects_expected = 1.0;  // Prior mean of the number of listed effects that are missing.
   double unknown_expected = 0.2;  // Prior mean of the number of missing effects that are not listed.
-  double size_spread = 1.0;       // Standard deviation of ln(size / typical).
+  // Prior probability that a statement of [known_to] is wrong: an effect that contradicts one costs this
+  // much.
+  double statement_wrong = 0.01;
+  double size_spread = 1.0;  // Standard deviation of ln(size / typical).
 
   // Standard deviations of the model error of an effect. Guessed, not learnt from campaigns.
   double form = 0.1;  // Relative to the effect's signature: smooth in time, independent between trials.

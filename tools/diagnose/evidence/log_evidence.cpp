@@ -39,9 +39,16 @@ double log_integral_over_size(double best, double sd, bool either_sign) {
   return std::log(std::max(sum, 1e-300));
 }
 
-double log_prior(const Problem& problem, std::size_t effects) {
-  return static_cast<double>(effects) *
-         std::log(kLimits.effects_expected / static_cast<double>(problem.candidates.size()));
+double log_prior(const Problem& problem, const std::vector<std::size_t>& set) {
+  return static_cast<double>(set.size()) *
+             std::log(kLimits.effects_expected / static_cast<double>(problem.candidates.size())) +
+         log_prior_of_statements(problem, set);
+}
+
+double log_prior_of_statements(const Problem& problem, const std::vector<std::size_t>& set) {
+  const auto contradicted = std::ranges::count_if(
+      set, [&](std::size_t candidate) { return problem.candidates[candidate].contradicts_belief; });
+  return static_cast<double>(contradicted) * std::log(kLimits.statement_wrong);
 }
 
 AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more) {

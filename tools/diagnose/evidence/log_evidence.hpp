@@ -36,9 +36,11 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
 // Log evidence of a fit; `at`: linearised at its point.
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at);
 
-// Log prior of a set of that many effects: the listed effects are equally probable, Limits::effects_expected
-// of them are expected to be missing.
-double log_prior(const Problem& problem, std::size_t effects);
+// Log prior of a set: the listed effects are equally probable, Limits::effects_expected of them are expected
+// to be missing. The second part is that of effects which contradict [known_to]: Limits::statement_wrong
+// each.
+double log_prior(const Problem& problem, const std::vector<std::size_t>& set);
+double log_prior_of_statements(const Problem& problem, const std::vector<std::size_t>& set);
 
 // ln int p(b) exp(-(b - best)^2 / 2 sd^2) db for the size b of an effect in typical sizes. p: log-normal
 // around 1 with standard deviation Limits::size_spread, split over both signs if `either_sign`.

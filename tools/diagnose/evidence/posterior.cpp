@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tools/diagnose/discrepancy/overlap.hpp"
-#include "tools/diagnose/evidence/calibration.hpp"
 #include "tools/diagnose/evidence/limits.hpp"
+#include "tools/diagnose/evidence/log_evidence.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -19,13 +19,17 @@ constexpr double kShareOfForm = 0.02;  // The same, relative to the plant's form
 constexpr double kLeastShare = 1.0 / kLimits.exchangeable;
 
 // Weight of each fitted set, relative to the best one.
-std::map<std::vector<std::size_t>, double> weights(const Search& search, double temperature) {
+std::map<std::vector<std::size_t>, double> weights(const Problem& problem, const Search& search,
+                                                   double temperature) {
   std::map<std::vector<std::size_t>, double> weight;
   for (const auto& [set, fit] : search.sets()) {
     // A rival may hold an effect it does not need, but it must not have more effects than the best set.
     if (fit.fit.status == FitStatus::failed || fit.refused || set.size() > search.best().set.size()) continue;
-    const double difference = search.criterion(fit) - search.criterion(search.best());
-    weight[set] = std::exp(-0.5 * std::max(0.0, difference) / temperature);
+    // The temperature is for what the recordings say, not for what the user states.
+    const double stated =
+        log_prior_of_statements(problem, set) - log_prior_of_statements(problem, search.best().set);
+    const double difference = search.criterion(fit) - search.criterion(search.best()) + 2.0 * stated;
+    weight[set] = std::exp(-0.5 * std::max(0.0, difference) / temperature + stated);
   }
   return weight;
 }
@@ -51,7 +55,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
                                      ? explained
                                      : std::min(explained, others->second.fit.deviance - best.fit.deviance +
                                                                shown_by_others(problem, best.fit.point, e));
-    const auto weight = weights(search, at_least + differs * where_it_acts / search.dispersion());
+    const auto weight = weights(problem, search, at_least + differs * where_it_acts / search.dispersion());
     double total = 0.0;
     for (const auto& [set, w] : weight) total += w;
     // A name joins the class if it explains something that the other effects leave.
@@ -71,7 +75,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
       for (const auto other : set)
         if (std::find(rest.begin(), rest.end(), other) == rest.end()) rivals.emplace_back(-w, other);
     }
-    out.probability[candidate] = total > 0.0 ? calibrated(with / total) : 0.0;
+    out.mass[candidate] = total > 0.0 ? with / total : 0.0;
     std::sort(rivals.begin(), rivals.end());
     for (const auto& rival : rivals) out.alternatives[candidate].push_back(rival.second);
   }

@@ -16,8 +16,8 @@ struct Posterior {
   // the answer to explain.
   double apart = 6.0;
   double apart_per_explained = 0.0;
-  // Key: effect of the best set. Value: probability that it, or one of its alternatives, is right.
-  std::map<std::size_t, double> probability;
+  // Key: effect of the best set. Value: share of the weights of sets that hold it or one of its alternatives.
+  std::map<std::size_t, double> mass;
   // Key: effect of the best set. Value: effects that explain as much in its place, most probable first.
   std::map<std::size_t, std::vector<std::size_t>> alternatives;
 };

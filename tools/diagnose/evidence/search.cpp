@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
 
@@ -76,6 +77,7 @@ double Search::criterion(const SetFit& fit, double dispersion) const {
   const auto parameters = static_cast<double>(fit.fit.point.hypothesis.parameters());
   return fit.fit.deviance / dispersion + size_deviance(*problem_, fit.fit.point.hypothesis) +
          effects * cost_of_an_effect() + (parameters - effects) * cost_of_a_parameter() -
+         2.0 * log_prior_of_statements(*problem_, fit.set) -
          (fit.set.empty() ? 0.0 : 2.0 * std::log(kLikelierThanOneMore));
 }
 

@@ -198,9 +198,9 @@ std::vector<Tolerance> tolerances_of(const Problem& problem) {
   for (const auto& known : problem.context.belief.known_to) {
     const double size = std::abs(problem.context.belief.value(known.key));
     if (known.sd == 0.0 || (known.is_relative && size == 0.0)) continue;
-    if (known.key == "rig.stiffness_N_per_m")  // simulated as a compliance, its reciprocal
-      tolerances.push_back({known.name, known.is_relative ? known.sd : known.sd / size, "", 0.0,
-                            "rig.compliance_m_per_N", 0.0, true, true});
+    if (const auto key = simulated_key(known.key); key != known.key)
+      tolerances.push_back(
+          {known.name, known.is_relative ? known.sd : known.sd / size, "", 0.0, key, 0.0, true, true});
     else
       tolerances.push_back({known.name, known.sd, "", 0.0, known.key, 0.0, known.is_relative, true});
   }

@@ -10,7 +10,26 @@ std::vector<Effect>& registry() {
   return effects;
 }
 
+// True if all that the effect changes are numbers under [known_to].
+bool changes_known_numbers(const Candidate& candidate, const Context& context) {
+  if (context.belief.known_to.empty()) return false;
+  std::vector<double> typical;
+  for (const auto& p : candidate.parameters) typical.push_back(p.typical);
+  Edits edits;
+  candidate.effect->apply(context, candidate.channel, typical, edits);
+  return !edits.belief.empty() && edits.laws.empty() && edits.sensors.empty() &&
+         std::ranges::all_of(edits.belief, [&](const BeliefEdit& edit) {
+           return std::ranges::any_of(context.belief.known_to, [&](const KeySpread& known) {
+             return known.sd > 0.0 && simulated_key(known.key) == edit.key;
+           });
+         });
+}
+
 }  // namespace
+
+std::string simulated_key(const std::string& key) {
+  return key == "rig.stiffness_N_per_m" ? "rig.compliance_m_per_N" : key;
+}
 
 EffectRegistration::EffectRegistration(Effect effect) { registry().push_back(std::move(effect)); }
 
@@ -43,8 +62,10 @@ std::vector<Candidate> candidates_for(const std::vector<Effect>& effects, const 
     if (std::find(effect.plants.begin(), effect.plants.end(), context.plant) == effect.plants.end()) continue;
     const auto channels = effect.channels ? effect.channels(context) : std::vector<std::string>{""};
     for (const auto& channel : channels)
-      if (auto parameters = effect.parameters(context, channel); !parameters.empty())
+      if (auto parameters = effect.parameters(context, channel); !parameters.empty()) {
         found.push_back({&effect, channel, std::move(parameters), port_on(context.plant, effect.port)});
+        found.back().contradicts_belief = changes_known_numbers(found.back(), context);
+      }
   }
   return found;
 }

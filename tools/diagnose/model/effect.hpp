@@ -131,6 +131,9 @@ struct Candidate {
   std::string channel;
   std::vector<EffectParameter> parameters;
   Port port{};  // port at which the effect acts on this plant
+  // True if the effect only changes numbers whose standard deviation [known_to] states. A change that the
+  // statement allows is a tolerance (fit/problem.hpp), so the effect says that the statement is wrong.
+  bool contradicts_belief = false;
 
   // Step for the derivative of the predictions with respect to the amplitude, in typical sizes. A law at a
   // port gets a large step, because it may act at a finite size only. A change of time, reading, torque or
@@ -145,6 +148,10 @@ struct Candidate {
 
   std::string label() const { return channel.empty() ? effect->id : effect->id + "[" + channel + "]"; }
 };
+
+// Key under which the plants simulate a number of nominal.toml: a rig's stiffness as a compliance, its
+// reciprocal.
+std::string simulated_key(const std::string& key);
 
 // Place of the effect in an answer: the channel with the fault, else the port, else the first part of the id.
 std::string port_of(const Candidate& candidate);
