@@ -116,6 +116,7 @@ struct OtherSpread {
   std::optional<double> torque_offset_Nm;  // empty: unknown, which is not zero
   double height_bias_m = 0.0;
   std::optional<double> height_scale_relative;  // empty: unknown, which is not zero
+  std::optional<double> release_speed_relative;
   double position_bias_m = 0.0;
   double load_cell_torque_offset_Nm = 0.0;
   double pressure_offset_Pa = 0.0;
@@ -128,6 +129,7 @@ struct OtherSpread {
     visit("torque_offset_Nm", self.torque_offset_Nm, kAmount);
     visit("height_bias_m", self.height_bias_m, kAmount);
     visit("height_scale_relative", self.height_scale_relative, kAmount);
+    visit("release_speed_relative", self.release_speed_relative, kAmount);
     visit("position_bias_m", self.position_bias_m, kAmount);
     visit("load_cell_torque_offset_Nm", self.load_cell_torque_offset_Nm, kAmount);
     visit("pressure_offset_Pa", self.pressure_offset_Pa, kAmount);

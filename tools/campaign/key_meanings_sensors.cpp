@@ -105,6 +105,8 @@ constexpr std::array kSensors{
     KeyMeaning{"spread.height_bias_m", "offset of the heights", "f"},
     KeyMeaning{"spread.height_scale_relative",
                "scale of the heights, as a share of it; not set: 4 % unless height_noise_m is stated", "f"},
+    KeyMeaning{"spread.release_speed_relative",
+               "speed at the release, as a share of the stated one: none for a body let go at rest", "f"},
     KeyMeaning{"spread.position_bias_m", "offset of the plate's position", "I"},
     KeyMeaning{"spread.load_cell_torque_offset_Nm", "offset of the bench's torque sensor", "R"},
     KeyMeaning{"spread.pressure_offset_Pa", "offset of the pressure", "F"},

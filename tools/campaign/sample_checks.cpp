@@ -3,6 +3,7 @@
 #include "tools/campaign/axis_torque_check.hpp"
 #include "tools/campaign/clock_checks.hpp"
 #include "tools/campaign/fall_check.hpp"
+#include "tools/campaign/gravity_check.hpp"
 #include "tools/campaign/hopper_check.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/press_speed_check.hpp"
@@ -19,6 +20,7 @@ void check_samples(TrialRecording& recording, const Campaign& campaign, const Ca
   check_held_samples(recording, places);
   check_plausible(recording, campaign, trial, places);
   check_rates(recording, places);
+  check_gravity(recording, places);
   check_falls(recording, campaign, trial, places);
   check_press_speed(recording, campaign, trial, places);
   check_axis_torque(recording, campaign, trial, places);

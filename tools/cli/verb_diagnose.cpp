@@ -86,7 +86,7 @@ void tell_belief(Session& session, const UsedNumbers& used,
           "; an error of {:.2g} would show{}", found->error_that_shows,
           found->matters() ? fmt::format(", and {:.2g} is usual: it matters", found->usual_error) : "");
     if (found != numbers.end() && found->known_sd > 0.0)
-      shows += fmt::format("; known to {:.2g}, and these recordings ask for {:+.2g} in all trials",
+      shows += fmt::format("; known to {:.2g}, and beside what was found these recordings ask for {:+.2g}",
                            found->known_sd, found->asked_for);
     session.say("belief {}{}", to_string(number), shows);
   }

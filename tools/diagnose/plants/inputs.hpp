@@ -9,6 +9,13 @@
 // Functions that all plants share: they turn recorded channels into rows and inputs.
 namespace sandhopper::diagnose {
 
+// Stands for a standard deviation of 0, in any unit: the elimination of a nuisance parameter divides by it.
+inline constexpr double kExact = 1e-9;
+// Standard deviation between trials as [spread] states it, else `unstated`.
+inline double spread_of(const Belief& belief, const std::string& key, double unstated) {
+  return belief.has(key) ? std::max(belief.value(key), kExact) : unstated;
+}
+
 // Samples of a channel, empty cells left out.
 struct Samples {
   std::vector<double> time_s;

@@ -8,7 +8,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "tools/campaign/belief_sources.hpp"
@@ -143,6 +145,13 @@ void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInpu
          "cut the recording where the axis is let go");
 }
 
+// Takes out the spreads that are 0 because nobody states them, so that a plant uses its own default for them.
+void forget_unstated_spreads(const std::set<std::string>& stated, Belief& belief) {
+  std::erase_if(belief.numbers, [&](const auto& number) {
+    return number.first.starts_with("spread.") && number.second == 0.0 && !stated.contains(number.first);
+  });
+}
+
 }  // namespace
 
 Belief flattened(const sandhopper::Belief& belief) {
@@ -166,6 +175,10 @@ CampaignInput read_campaign(const Campaign& campaign) {
   input.recordings.model_text = model.str();
   input.recordings.plant = kind_of(campaign.plant);
   input.recordings.belief = flattened(campaign.belief);
+  std::set<std::string> stated;
+  for (const auto& number : used_numbers(campaign).numbers)
+    if (number.source != UsedNumber::Source::plant_default) stated.insert(number.key);
+  forget_unstated_spreads(stated, input.recordings.belief);
   input.recordings.available = campaign.available;
   input.findings = campaign.findings;
   for (auto& note : placeholder_notes(campaign, [](std::string_view) { return true; }))
@@ -204,6 +217,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
     at_one_value.push_back(recording.at_one_value);
     motor_on.push_back(described.flag("motor_enabled"));
     input.recordings.beliefs.push_back(flattened(described.belief));
+    forget_unstated_spreads(stated, input.recordings.beliefs.back());
   }
   if (auto note = unloading.finding()) input.findings.push_back(std::move(*note));
   take_what_is_at_one_value(at_one_value, input.recordings.trials);

@@ -228,7 +228,7 @@ StudySection belief_section(const Diagnosis& d) {
   for (const auto& n : d.belief) {
     auto value = n.low == n.high ? number(n.low) : fmt::format("{} to {}", number(n.low), number(n.high));
     if (n.known_sd > 0.0)
-      value += fmt::format(" (known to {}; the recordings ask for {:+.2g})", number(n.known_sd), n.asked_for);
+      value += fmt::format(" (known to {}; beside what was found the recordings ask for {:+.2g})", number(n.known_sd), n.asked_for);
     table.rows.push_back(
         {n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
          std::isfinite(n.error_that_shows) ? number(n.error_that_shows) : std::string("none"),

@@ -84,6 +84,18 @@ std::optional<double> landed_after_s(const Samples& heights, double believed_noi
   return t[first - 1];
 }
 
+std::optional<double> loss_of_weight_s(const Samples& accels, double gravity_mps2) {
+  const auto& [t, a] = accels;
+  std::size_t hangs = 0;
+  while (hangs < a.size() && std::abs(a[hangs] - gravity_mps2) < 0.25 * gravity_mps2) ++hangs;
+  if (hangs < 3 || 2 * hangs > a.size()) return std::nullopt;
+  const bool falls = std::all_of(a.begin() + static_cast<std::ptrdiff_t>(hangs),
+                                 a.begin() + static_cast<std::ptrdiff_t>(2 * hangs),
+                                 [&](double felt) { return felt < 0.5 * gravity_mps2; });
+  if (!falls) return std::nullopt;
+  return 0.5 * (t[hangs - 1] + t[hangs]);
+}
+
 std::optional<double> gap_around_s(const Samples& accels, double about_s) {
   constexpr double kNear_s = 0.03, kLeast_s = 0.01;
   for (std::size_t i = 1; i < accels.time_s.size(); ++i) {

@@ -12,6 +12,11 @@ namespace sandhopper::diagnose {
 // it again.
 std::optional<double> release_before_shock_s(const Samples& accels, double gravity_mps2);
 
+// Release of a body that hangs at rest when the recording begins: midway between the last sample with the
+// body's weight and the first without it. The weight is felt in at least three samples, and as long after
+// the release as before it, half of it is not felt again. Empty if the first sample is already in the fall.
+std::optional<double> loss_of_weight_s(const Samples& accels, double gravity_mps2);
+
 // End of an initial rest, counted from the first height: the heights stay within 4 standard deviations of
 // their noise and then fall. Empty if the rest is no longer than a body that is released at the first height,
 // with the acceleration `fall_mps2`, would seem to rest.

@@ -131,6 +131,7 @@ class FallingTrial final : public TrialModel {
   void find_release(const Samples& heights, const Samples& accels) {
     const double g = fall_.belief.value("gravity_mps2", 9.81);
     auto found_s = release_before_shock_s(accels, g);
+    if (!found_s) found_s = loss_of_weight_s(accels, g);
     if (!found_s)
       found_s = end_of_rest_s(heights, fall_.belief.value("sensors.height_noise_m"), released_mps2());
     fall_.held = found_s.has_value();
@@ -206,9 +207,15 @@ class FallingTrial final : public TrialModel {
     height_sd = std::max(1e-3, (g * fall_s - fall_.start_speed_mps) * fall_.step_s);
   }
 
+  // The part that is a share of the stated speed is 0 for a body that is let go at rest.
+  double release_speed_sd_mps(double told_mps, double unstated_mps) const {
+    if (!fall_.belief.has("spread.release_speed_relative"))
+      return spread_of(fall_.belief, "spread.release_speed_mps", unstated_mps);
+    return std::max(kExact, std::hypot(fall_.belief.value("spread.release_speed_mps"),
+                                       fall_.belief.value("spread.release_speed_relative") * told_mps));
+  }
+
   void place(const Trial& trial, const Samples& heights) {
-    const double spread_height = fall_.belief.value("spread.release_height_m");
-    const double spread_speed = fall_.belief.value("spread.release_speed_mps");
     const bool told = height_told_;
     double seen = 0.0;
     if (from_release_) {
@@ -226,13 +233,14 @@ class FallingTrial final : public TrialModel {
     fall_.start_speed_mps = rises ? told_mps : -told_mps;
     if (fall_.impact_s >= 0.0) fall_.start_speed_mps = fall_speed_mps_;
     const double noise = std::max(fluctuation_rms(heights), fall_.belief.value("sensors.height_noise_m"));
-    double height_sd = spread_height > 0.0 && told ? spread_height : std::max(kKnownHeight_m, noise);
+    double height_sd = std::max(kKnownHeight_m, noise);
+    if (told) height_sd = spread_of(fall_.belief, "spread.release_height_m", height_sd);
     // Takes the height from the recording if the set-up has none, or one over another zero.
     if (!told || (!heights.empty() && std::abs(seen - fall_.start_height_m) > 0.2 + 8.0 * height_sd)) {
       if (!heights.empty()) fall_.start_height_m = seen;
       height_sd = 1.0;
     }
-    double speed_sd = spread_speed > 0.0 ? spread_speed : told ? kKnownSpeed_mps : kSpeedOfAThrow_mps;
+    double speed_sd = release_speed_sd_mps(told_mps, told ? kKnownSpeed_mps : kSpeedOfAThrow_mps);
     if (fall_.held && !from_release_) speed_sd = std::min(speed_sd, 0.1);
     if (fall_.impact_s >= 0.0) speed_sd = kUnknownImpact_mps;
     fall_.surface_m = believed_surface_m(fall_.belief).value_or(0.0);
@@ -270,7 +278,7 @@ class FallingTrial final : public TrialModel {
     // off.
     const bool told_of_accel = fall_.belief.value("sensors.accel_noise_mps2") > 0.0 || fall_.impact_s < 0.0;
     const double bias_sd =
-        std::max(fall_.belief.value("spread.accel_bias_mps2"), told_of_accel ? 0.0 : kUnknownBias_mps2);
+        spread_of(fall_.belief, "spread.accel_bias_mps2", told_of_accel ? 0.0 : kUnknownBias_mps2);
     if (const double sd = bias_sd; sd > 0.0 && trial.find("accel_mps2")) {
       accel_bias_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"accel_bias_mps2", sd, 1e-2});
@@ -279,10 +287,9 @@ class FallingTrial final : public TrialModel {
       fall_.bed_nuisance = static_cast<int>(trial_nuisances.size());
       const double unknown = fall_.impact_s >= 0.0 ? kUnknownBed : 1e-3;
       trial_nuisances.push_back({"bed_stiffness_relative",
-                                 std::max(fall_.belief.value("spread.bed_stiffness_relative"), unknown),
-                                 1e-3});
+                                 spread_of(fall_.belief, "spread.bed_stiffness_relative", unknown), 1e-3});
       trial_nuisances.push_back(
-          {"surface_height_m", std::max(fall_.belief.value("spread.surface_height_m"), 1e-3), 1e-4});
+          {"surface_height_m", spread_of(fall_.belief, "spread.surface_height_m", 1e-3), 1e-4});
     }
     if (fall_.impact_s >= 0.0) {
       fall_.impact_nuisance = static_cast<int>(trial_nuisances.size());

@@ -24,11 +24,12 @@ double pushes_of(const Samples& z) {
 
 namespace {
 
-constexpr double kSurfaceUnknown_m = 2e-4;    // least standard deviation
-constexpr double kForceZeroUnknown_N = 0.02;  // least standard deviation
-constexpr double kNotKnown_N = -1.0;          // BedContact::deepest_N is not known
-constexpr std::size_t kMostKnots = 16;        // most knots of the bed's fluctuation along depth
-constexpr double kHoldSpeed_mps = 1e-3;       // a slower foot holds
+// Standard deviations that nobody states.
+constexpr double kSurfaceUnknown_m = 2e-4;
+constexpr double kForceZeroUnknown_N = 0.02;
+constexpr double kNotKnown_N = -1.0;     // BedContact::deepest_N is not known
+constexpr std::size_t kMostKnots = 16;   // most knots of the bed's fluctuation along depth
+constexpr double kHoldSpeed_mps = 1e-3;  // a slower foot holds
 // In standard deviations: within it depth or speed count as standing still.
 constexpr double kNoiseBand = 4.0;
 
@@ -77,12 +78,11 @@ class IntruderTrial final : public TrialModel {
     double fastest_mps = 0.0;
     for (const double speed_mps : motion_.speed_mps) fastest_mps = std::max(fastest_mps, std::abs(speed_mps));
     rest_speed_mps_ = std::min(kNoiseBand * motion_.speed_sd_mps, 0.1 * fastest_mps);
-    const double spread_surface = belief.value("spread.surface_height_m");
-    const double spread_force = belief.value("spread.load_cell_offset_N");
-    add_nuisance("surface_height_m", std::max(spread_surface, kSurfaceUnknown_m), kSurfaceStep_m);
-    add_nuisance("load_cell_offset_N", std::max(spread_force, kForceZeroUnknown_N), 0.05);
-    add_nuisance("bed_stiffness_relative", std::max(belief.value("spread.bed_stiffness_relative"), 1e-3),
-                 1e-2);
+    add_nuisance("surface_height_m", spread_of(belief, "spread.surface_height_m", kSurfaceUnknown_m),
+                 kSurfaceStep_m);
+    add_nuisance("load_cell_offset_N", spread_of(belief, "spread.load_cell_offset_N", kForceZeroUnknown_N),
+                 0.05);
+    add_nuisance("bed_stiffness_relative", spread_of(belief, "spread.bed_stiffness_relative", 1e-3), 1e-2);
     // Error of the deepest point, at which the steep unloading line starts. Its noise shifts all rows of the
     // unloading by the same depth.
     add_nuisance("turning_depth_m", motion_.depth_sd_m, motion_.depth_sd_m);
