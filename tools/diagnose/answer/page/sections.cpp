@@ -205,7 +205,10 @@ StudySection absent_section(const Diagnosis& d) {
                           (b.is_lower ? "above " : "below ") + number(b.value),
                           fmt::format("{:.2g}", b.typicals)});
   table.note =
-      "Bounds of what was looked for and not found, each alone beside what was found; a stiffness or a limit "
+      "Bounds of what was looked for and not found: the largest size that each may have beside what was "
+      "found, "
+      "or in its place, so they are wider than the errors of the belief that would show; a stiffness or a "
+      "limit "
       "is "
       "bounded from below. All of them hold "
       "together with 95 % confidence. A bound above 1 typical size is wide: an effect of the usual size "
@@ -228,7 +231,8 @@ StudySection belief_section(const Diagnosis& d) {
   for (const auto& n : d.belief) {
     auto value = n.low == n.high ? number(n.low) : fmt::format("{} to {}", number(n.low), number(n.high));
     if (n.known_sd > 0.0)
-      value += fmt::format(" (known to {}; beside what was found the recordings ask for {:+.2g})", number(n.known_sd), n.asked_for);
+      value += fmt::format(" (known to {}; beside what was found the recordings ask for {:+.2g})",
+                           number(n.known_sd), n.asked_for);
     table.rows.push_back(
         {n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
          std::isfinite(n.error_that_shows) ? number(n.error_that_shows) : std::string("none"),
