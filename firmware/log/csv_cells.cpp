@@ -37,8 +37,16 @@ bool has_groups(std::string_view whole, char mark) {
 // Group separator that no locale uses as a decimal mark: no-break, narrow and thin spaces become this byte.
 constexpr char kGroup = '\x01';
 
-// Replaces minus signs, apostrophes and spaces beyond ASCII by the usual characters and Fortran's exponent
-// (1.5D-03) by E. Removes the quoting by which a spreadsheet keeps a number as text (="0.5", '0.5).
+// A sign or digit of full width, '+' (U+FF0B) to '9' (U+FF19), as the plain one; '\0' for another character.
+char from_full_width(std::string_view text) {
+  if (text.size() < 3 || text[0] != '\xEF' || text[1] != '\xBC') return '\0';
+  const int third = static_cast<unsigned char>(text[2]);
+  return third >= 0x8B && third <= 0x99 ? static_cast<char>('+' + third - 0x8B) : '\0';
+}
+
+// Replaces minus signs, digits of full width, apostrophes and spaces beyond ASCII by the usual characters and
+// Fortran's exponent (1.5D-03) by E. Removes the quoting by which a spreadsheet keeps a number as text
+// (="0.5", '0.5).
 std::string plainly_written(std::string_view text) {
   struct Sign {
     std::string_view written;
@@ -60,6 +68,11 @@ std::string plainly_written(std::string_view text) {
     if (sign != kSigns.end()) {
       out.push_back(sign->plain);
       text.remove_prefix(sign->written.size());
+      continue;
+    }
+    if (const char plain = from_full_width(text); plain != '\0') {
+      out.push_back(plain);
+      text.remove_prefix(3);
       continue;
     }
     const bool is_exponent = (text.front() == 'D' || text.front() == 'd') && !out.empty() &&

@@ -20,7 +20,7 @@ constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 class Reading {
  public:
   Reading(std::istream& in, const CsvReadOptions& options)
-      : lines_(in, options.format.encoding), options_(options) {}
+      : lines_(in, options.format.encoding, lines_ahead(options.format)), options_(options) {}
 
   CsvTable run() {
     if (!is_text()) return std::move(table_);

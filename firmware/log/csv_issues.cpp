@@ -76,7 +76,7 @@ std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_
                                  const CsvFormat& format) {
   std::ifstream in(file);
   if (!in) return 1;
-  TextLines lines(in, format.encoding);
+  TextLines lines(in, format.encoding, lines_ahead(format));
   const auto layout = find_layout(lines.ahead(), lines.encoding(), format);
   std::string text;
   bool is_there = true;

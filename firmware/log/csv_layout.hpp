@@ -50,6 +50,9 @@ struct CsvLayout {
   std::vector<std::string> said{};
 };
 
+// Number of lines to read in advance, so that a stated line of names in mid-file is among them.
+std::size_t lines_ahead(const CsvFormat& stated);
+
 // The table is the longest run of lines with equally many cells, most of them numbers. Its names are in the
 // nearest line above with as many cells that are no numbers; units may be in the line between. A line `sep=;`
 // sets the separator. Of several possible separators the one that gives most numbers is used.

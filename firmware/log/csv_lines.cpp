@@ -6,6 +6,13 @@
 // Functions for one line of a table: its names, remarks and units.
 namespace sandhopper {
 
+std::size_t lines_ahead(const CsvFormat& stated) {
+  const auto names = std::max(stated.header_line.value_or(0), stated.units_line.value_or(0));
+  // A line of a file is at least one byte long: a larger number is a slip of the pen and names no line.
+  constexpr std::uint64_t kMost = 1U << 24U;
+  return std::max(TextLines::kAhead, static_cast<std::size_t>(names <= kMost ? names : 0));
+}
+
 void split_names(std::string_view line, char separator, std::size_t wanted, std::vector<TableCell>& cells) {
   split_csv_cells(line, separator, cells);
   if (separator != ' ' || cells.size() <= wanted) return;

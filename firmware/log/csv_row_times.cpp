@@ -28,7 +28,7 @@ CsvRowTimes::Order CsvRowTimes::take(double& time, std::uint64_t line) {
   bool wrapped = false;
   if (has_last_ && wraps_ == 0.0 && is_full_counter(last_, time)) wraps_ = kCounter, wrapped = true;
   time += wraps_;
-  if (recordings_.size() == 1 && time < previous_) first_step_ = previous_ - time;
+  if (recordings_.size() == 1 && time < previous_) first_before_ = previous_, first_step_ = previous_ - time;
   if (recordings_.empty() || time < previous_) recordings_.push_back({line, line});
   recordings_.back().last_line = line;
   previous_ = time;
@@ -62,9 +62,23 @@ std::string CsvRowTimes::recordings() const {
 }
 
 std::string CsvRowTimes::clock_set_back() const {
-  const bool hour = std::abs(first_step_ - 3600.0) < 60.0;
+  // Rows of one recording are less than a minute apart.
+  const auto is_back_by = [&](double step) { return std::abs(first_step_ - step) < 60.0; };
+  constexpr double kHalfDay_s = 43200.0;
+  if (is_back_by(kHalfDay_s))
+    return "; or, because the step is half a day, a clock of 12 hours without AM and PM: export hours from 0 "
+           "to 23";
+  for (const int bits : {16, 24}) {
+    // The largest value, and a step back by nearly all of the counter's values.
+    const double values = std::ldexp(1.0, bits);
+    const bool is_whole =
+        first_before_ == std::floor(first_before_) && first_step_ == std::floor(first_step_);
+    if (is_whole && first_before_ < values && first_step_ > 0.9 * values)
+      return "; or a counter of " + std::to_string(bits) + " bits that is full and begins again: add " +
+             std::to_string(1 << bits) + " to the rows behind each such step";
+  }
   return std::string("; or the clock was set back") +
-         (hour ? " by an hour, as at the end of summer time" : ": record with one that is not");
+         (is_back_by(3600.0) ? " by an hour, as at the end of summer time" : ": record with one that is not");
 }
 
 }  // namespace sandhopper

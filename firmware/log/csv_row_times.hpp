@@ -33,9 +33,9 @@ class CsvRowTimes {
   std::optional<double> last_of_day_s_{};
   double wraps_ = 0.0;  // sum of the counter's overflows
   bool has_last_ = false;
-  double last_ = 0.0;        // time of the last kept row
-  double previous_ = 0.0;    // time of the previous row, kept or not
-  double first_step_ = 0.0;  // size of the first step back
+  double last_ = 0.0;                             // time of the last kept row
+  double previous_ = 0.0;                         // time of the previous row, kept or not
+  double first_step_ = 0.0, first_before_ = 0.0;  // size of the first step back, and the time before it
   std::uint64_t rows_ = 0, left_out_ = 0;
   struct Recording {
     std::uint64_t first_line, last_line;

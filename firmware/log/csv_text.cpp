@@ -51,10 +51,13 @@ constexpr std::array kMagic{
 
 // Characters 0x80 to 0x9F of Windows-1252; the others equal Latin-1. Source: WHATWG Encoding Standard, index
 // windows-1252.
-constexpr std::array<char32_t, 32> kWindows{0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
-                                            0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
-                                            0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
-                                            0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
+// Five bytes have no character in Windows-1252. As control characters they would reach a terminal.
+constexpr char32_t kNoCharacter = 0xFFFD;
+constexpr std::array<char32_t, 32> kWindows{
+    0x20AC,       kNoCharacter, 0x201A, 0x0192, 0x201E, 0x2026,       0x2020, 0x2021,
+    0x02C6,       0x2030,       0x0160, 0x2039, 0x0152, kNoCharacter, 0x017D, kNoCharacter,
+    kNoCharacter, 0x2018,       0x2019, 0x201C, 0x201D, 0x2022,       0x2013, 0x2014,
+    0x02DC,       0x2122,       0x0161, 0x203A, 0x0153, kNoCharacter, 0x017E, 0x0178};
 
 void append_utf8(std::string& out, char32_t c) {
   const auto put = [&](char32_t byte) { out.push_back(static_cast<char>(byte)); };
@@ -195,7 +198,7 @@ std::string utf8_from(std::string_view bytes, TextEncoding encoding) {
   return std::string(bytes);
 }
 
-TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding)
+TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding, std::size_t ahead)
     : in_(in), encoding_(TextEncoding::utf8) {
   held_.resize(kLookedAt);
   in_.read(held_.data(), static_cast<std::streamsize>(held_.size()));
@@ -209,7 +212,7 @@ TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding)
   if (held_.starts_with(kByteOrderMark)) held_.erase(0, kByteOrderMark.size());
   is_old_mac_ = held_.find('\n') == std::string::npos && held_.find('\r') != std::string::npos;
   std::string line;
-  while (ahead_.size() < kAhead && read(line)) ahead_.push_back(line);
+  while (ahead_.size() < ahead && read(line)) ahead_.push_back(line);
   join_broken_names();
 }
 

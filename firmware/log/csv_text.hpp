@@ -41,12 +41,13 @@ TextEncoding encoding_of(std::string_view bytes);
 std::string utf8_from(std::string_view bytes, TextEncoding encoding);
 
 // Lines of a stream in UTF-8, without line ends (\n, \r\n or \r) and without a byte order mark. The first
-// `kAhead` lines can be read in advance.
+// `ahead` lines can be read in advance.
 class TextLines {
  public:
   static constexpr std::size_t kAhead = 400;
 
-  explicit TextLines(std::istream& in, std::optional<TextEncoding> encoding = std::nullopt);
+  explicit TextLines(std::istream& in, std::optional<TextEncoding> encoding = std::nullopt,
+                     std::size_t ahead = kAhead);
 
   TextEncoding encoding() const { return encoding_; }
   const std::deque<std::string>& ahead() const { return ahead_; }

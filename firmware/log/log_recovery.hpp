@@ -11,6 +11,10 @@
 
 namespace sandhopper {
 
+namespace mcap {
+struct OneLog;
+}
+
 // Cycles of a log, determined from the cycle counter in /frame.
 struct LoggedCycles {
   std::uint64_t first = 0;
@@ -50,11 +54,20 @@ struct LogRecovery {
   std::uint64_t gaps = 0;               // number of gaps that the log records, and of records missing in them
   std::uint64_t lost_in_gaps = 0;
 
+  std::uint64_t copies = 1;            // number of times that the file holds this log, one behind the other
+  std::uint64_t bytes_behind_end = 0;  // bytes behind the end of a closed log; they are no part of it
+  bool zeros_behind_end = true;        // all of them are zeros
+  bool loses_at_least = false;         // CAN text: a damaged stretch may have held more frames than `lost`
+
   // Empty if the log has no cycles with this build's schema.
   std::optional<LoggedCycles> cycles;
 
-  // True if lost() counts everything that is missing: the log was closed, or its end was restored.
+  // True if the end of the log is known: it was closed, or its end was restored. Then lost() counts
+  // everything that is missing, unless `loses_at_least`.
   bool end_is_known() const { return !cut_at || (cycles && cycles->missing_at_end); }
+
+  // Adds to the result of one log what its file holds besides it. Offsets then are those of the file.
+  void add_rest_of_file(const mcap::OneLog& log);
 
   std::uint64_t saved() const;
   std::uint64_t lost() const;  // without lost_in_gaps
@@ -66,11 +79,14 @@ struct LogRecovery {
 // damage hides the begin of the records, the next chunk with a correct CRC is searched for. A log with other
 // encodings than this firmware's is refused.
 //
+// A file that holds the same log several times gives it once. Bytes behind a log's end are left out.
+//
 // `newest` are the last cycles of this trial, oldest first, from its freeze ring (find_newest_cycles()).
 // Those that a cut log lacks at its end are also written to the copy.
 //
-// Throws mcap::Error if `from` is no such log or nothing in it can be read, and std::system_error if a file
-// cannot be opened or written. An existing `to` is not overwritten.
+// Throws mcap::SeveralLogs if the file holds different logs, mcap::Error if `from` is no such log or nothing
+// in it can be read, and std::system_error if a file cannot be opened or written. An existing `to` is not
+// overwritten.
 LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to,
                          std::span<const FreezeCycle> newest = {});
 // Only inspects. Throws as recover_mcap does.

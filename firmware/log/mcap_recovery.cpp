@@ -4,9 +4,11 @@
 #include <system_error>
 #include <utility>
 
+#include "firmware/log/append_file.hpp"
 #include "firmware/log/cycle_count.hpp"
 #include "firmware/log/log_recovery.hpp"
 #include "firmware/log/mapped_file.hpp"
+#include "firmware/log/mcap_parts.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/mcap_salvage.hpp"
 #include "firmware/log/mcap_unpack.hpp"
@@ -348,34 +350,35 @@ class Recovery {
 
 }  // namespace
 
-std::uint64_t LogRecovery::saved() const {
-  std::uint64_t sum = 0;
-  for (const auto& [name, topic] : topics) sum += topic.saved;
-  return sum;
-}
-
-std::uint64_t LogRecovery::lost() const {
-  std::uint64_t sum = 0;
-  for (const auto& [name, topic] : topics) sum += topic.lost;
-  return sum;
-}
-
 LogRecovery look_at_mcap(const std::filesystem::path& from) {
   const MappedFile file(from);
-  return Recovery(file.bytes(), from.filename().string()).look();
+  const auto log = mcap::one_log_of(file.bytes(), from);
+  LogRecovery found = Recovery(log.bytes, from.filename().string()).look();
+  found.add_rest_of_file(log);
+  return found;
 }
 
 LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to,
                          std::span<const FreezeCycle> newest) {
   const MappedFile file(from);
-  Recovery recovery(file.bytes(), from.filename().string());
+  const auto log = mcap::one_log_of(file.bytes(), from);
+  Recovery recovery(log.bytes, from.filename().string());
   LogRecovery found = recovery.look();
-  if (found.whole) return found;
+  if (found.whole) {
+    found.add_rest_of_file(log);
+    if (found.whole) return found;
+    AppendFile copy(to);
+    copy.append(log.bytes);
+    copy.close();
+    return found;
+  }
   if (found.topics.empty() && !recovery.has_channels())
     throw mcap::Error(from.string() +
                       ": nothing can be read of it; it is no MCAP log, or was cut before its first record");
   try {
-    return recovery.copy(to, newest);
+    found = recovery.copy(to, newest);
+    found.add_rest_of_file(log);
+    return found;
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::file_exists) {
       std::error_code ignored;

@@ -17,21 +17,23 @@ struct Read {
   std::size_t values = 0;
   std::string error, cure;
   std::vector<std::string> notes;
+  double last_s = 0.0;
 };
 
-Read read_file(const std::filesystem::path& file, const std::string& column) {
+Read read_file(const std::filesystem::path& file, const std::string& column, const std::string& unit = {}) {
   try {
-    const auto table = read_foreign_table(file, column);
-    return {table.recording.signal.value.size(), "", "", table.notes};
+    const auto table = read_foreign_table(file, column, unit);
+    const auto& signal = table.recording.signal;
+    return {signal.value.size(), "", "", table.notes, signal.time_s.empty() ? 0.0 : signal.time_s.back()};
   } catch (const ForeignTableError& error) {
-    return {0, error.what(), error.cure, {}};
+    return {0, error.what(), error.cure, {}, 0.0};
   }
 }
 
-Read read_text(const std::string& text) {
+Read read_text(const std::string& text, const std::string& unit = {}) {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("foreign_{}.csv", ::getpid());
   std::ofstream(file) << text;
-  auto read = read_file(file, "force");
+  auto read = read_file(file, "force", unit);
   std::filesystem::remove(file);
   return read;
 }
@@ -83,6 +85,37 @@ TEST(CalibrateTable, AFewBadCellsAreNotes) {
   EXPECT_EQ(read.values, 20U);
   ASSERT_EQ(read.notes.size(), 1U);
   EXPECT_THAT(read.notes.front(), HasSubstr("\"oops\""));
+}
+
+TEST(CalibrateTable, TheUnitOfTheTimeIsThatOfTheUserOrOfTheLineOfUnits) {
+  EXPECT_NEAR(read_text("t_s,force\n" + rows("1{:03}.5,1", 20), "ms").last_s, 1.0195, 1e-9);
+  const auto stated = read_text("t_s,force\n(us),(N)\n" + rows("10{:02}000,1", 20));
+  EXPECT_NEAR(stated.last_s, 1.019, 1e-9);
+  ASSERT_EQ(stated.notes.size(), 1U);
+  EXPECT_THAT(stated.notes.front(), HasSubstr("by the table's line of units"));
+  EXPECT_NEAR(read_text("t_s,force\ns,N\n" + rows("1.{:03},1", 20)).last_s, 1.019, 1e-9);
+}
+
+TEST(CalibrateTable, MarksBetweenThousandsOfTheTimeAreNamedWithTheirRemoval) {
+  const auto read = read_text("t_s;force\n" + rows("{0}.000;1.5", 900) + rows("1.{:03}.000;2.5", 950));
+  EXPECT_THAT(read.error, AllOf(HasSubstr(":902: 950 times of t_s are no number and 900 are"),
+                                HasSubstr("marks stand between thousands")));
+  EXPECT_THAT(read.cure, HasSubstr("awk -F';' -v OFS=';' '{ gsub(/[.]/, \"\", $1) } 1'"));
+  EXPECT_EQ(read_text("t_s;force\n" + rows("1{:03}000;2.5", 60), "us").values, 60U);
+}
+
+TEST(CalibrateTable, TimesWithTooFewDigitsAreNamed) {
+  std::string text = "t_s,force\n";
+  for (int i = 0; i < 200; ++i) text += fmt::format("{:.2f},1\n", 1e-3 * i);
+  EXPECT_THAT(read_text(text).error, AllOf(HasSubstr("of 200 rows have the time of the row before"),
+                                           HasSubstr("in steps of 0.01 only")));
+  EXPECT_EQ(read_text("t_s,force\n" + rows("0.{:03},1", 50) + "0.049,1\n").values, 51U) << "one repeat";
+}
+
+TEST(CalibrateTable, NothingIsAskedForACampaignThatThereIsNot) {
+  const auto read = read_text("t_s;force\n" + rows("{0};1,{0:03}", 40));
+  for (const auto& note : read.notes) EXPECT_THAT(note, ::testing::Not(HasSubstr("campaign.toml")));
+  EXPECT_THAT(read.error + read.cure, ::testing::Not(HasSubstr("campaign.toml")));
 }
 
 TEST(CalibrateTable, AMissingColumnIsSaidWithThoseThereAre) {

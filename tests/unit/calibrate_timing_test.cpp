@@ -144,6 +144,74 @@ TEST(CalibrateTiming, OtherTapsThanOursAreRefused) {
   EXPECT_EQ(reasons(fit(tap(1), foreign).outcome), "taps_differ");
 }
 
+// Removes the taps within 0.2 s of `at_s`, in the times of the series: the recorder felt nothing.
+void without_tap(Series& signal, double at_s) {
+  for (std::size_t i = 0; i < signal.size(); ++i)
+    if (std::abs(signal.time_s[i] - at_s) < 0.2) signal.value[i] = 0.01 * static_cast<double>(i % 3);
+}
+
+// Its taps are those of the fixture, evenly 0.5 s apart.
+ForeignRecording even_foreign(const Recording& recording) {
+  return foreign_of({1000.0, 3.2174, 5e-5, 1, 1e-9 * static_cast<double>(recording.begin_ns)});
+}
+
+// Time of the first tap in the foreign signal.
+double first_tap_s(const ForeignRecording& foreign) {
+  const double strongest = std::ranges::max(foreign.signal.value);
+  for (std::size_t i = 0; i < foreign.signal.size(); ++i)
+    if (foreign.signal.value[i] > 0.8 * strongest) return foreign.signal.time_s[i];
+  return 0.0;
+}
+
+TEST(CalibrateTiming, EvenTapsWithOneMissingFitAtSeveralShiftsAndAreRefused) {
+  const auto recording = tap(1);
+  auto foreign = even_foreign(recording);
+  // It recorded long enough on both sides to have felt every tap of either shift.
+  for (int i = 0; i < 1000; ++i) {
+    foreign.signal.time_s.push_back(foreign.signal.time_s.back() + 1e-3);
+    foreign.signal.value.push_back(0.01 * (i % 3));
+  }
+  without_tap(foreign.signal, first_tap_s(foreign));
+  const auto found = fit(recording, foreign);
+  ASSERT_EQ(reasons(found.outcome), "alignment_ambiguous");
+  EXPECT_THAT(
+      found.outcome.refusals.front().text,
+      ::testing::AllOf(::testing::HasSubstr("come evenly and fit ours at "), ::testing::HasSubstr("t + 3.2"),
+                       ::testing::HasSubstr("t + 2.7"), ::testing::HasSubstr("9 taps match")));
+  EXPECT_FALSE(found.clock);
+}
+
+TEST(CalibrateTiming, UnevenTapsWithOneMissingHaveOneShift) {
+  auto recording = tap(1);
+  auto foreign = even_foreign(recording);
+  const double first_s = first_tap_s(foreign);
+  // Without the taps 3 and 6 the intervals are uneven in both recordings.
+  for (const int i : {3, 6}) {
+    without_tap(foreign.signal, first_s + 0.5 * i);
+    const double ours_s = first_s + 0.5 * i + 3.2174;
+    for (auto& sample : recording.imu_foot)
+      if (std::abs(1e-9 * static_cast<double>(sample.time_ns - recording.begin_ns) - ours_s) < 0.2)
+        sample.accel_mps2 = recording.imu_foot.front().accel_mps2;
+  }
+  without_tap(foreign.signal, first_s);
+  const auto found = fit(recording, foreign);
+  ASSERT_EQ(reasons(found.outcome), "") << found.outcome.refusals.front().text;
+  ASSERT_TRUE(found.clock);
+  EXPECT_NEAR(found.clock->offset_s, 3.2174, 1e-3);
+}
+
+TEST(CalibrateTiming, TimesInAnotherUnitAreNamed) {
+  const auto recording = tap(1);
+  for (const auto& [unit, factor] : {std::pair{"ms", 1e3}, {"us", 1e6}, {"min", 1.0 / 60.0}}) {
+    auto foreign = even_foreign(recording);
+    for (auto& t : foreign.signal.time_s) t *= factor;
+    const auto found = fit(recording, foreign);
+    ASSERT_EQ(reasons(found.outcome), "time_unit") << unit;
+    EXPECT_THAT(found.outcome.refusals.front().cure,
+                ::testing::HasSubstr(std::string("--foreign-time-unit ") + unit));
+  }
+}
+
 // The clock of the other computer is set by `step_s` at `at_s` of its time.
 ForeignRecording with_step(const Recording& recording, double at_s, double step_s) {
   auto foreign = foreign_of({1000.0, 3.2174, 5e-5, 1, 1e-9 * static_cast<double>(recording.begin_ns)});

@@ -117,6 +117,33 @@ TEST_F(Formats, PythonCansPrintedMessagesAreConvertedByTheLineGiven) {
   EXPECT_EQ(converted(*format), kOneFrame);
 }
 
+// A remote frame has no data: it must not become a data frame of length 0.
+TEST_F(Formats, RemoteFdAndErrorFramesStayThemselvesInTheLineGiven) {
+  const auto long_form =
+      of(" (1700000000.000260)  can0  011   [8]  01 80 00 66 68 38 46 00\n"
+         " (1700000000.001000)  can0  001   [0]  remote request\n"
+         " (1700000000.002000)  can0  001   [8]  remote request\n"
+         " (1700000000.003000)  can0  123  [12]  00 01 02 03 04 05 06 07 08 09 0A 0B\n"
+         "DROPCOUNT: dropped 3 CAN frames on 'can0' socket (total drops 3)\n"
+         " (1700000000.004000)  can0  20000004   [8]  00 08 00 00 00 00 60 00   ERRORFRAME\n");
+  ASSERT_TRUE(long_form);
+  EXPECT_EQ(converted(*long_form), std::string(kOneFrame) +
+                                       "(1700000000.001000) can0 001#R0\n(1700000000.002000) can0 001#R8\n"
+                                       "(1700000000.003000) can0 123##0000102030405060708090A0B\n"
+                                       "# DROPCOUNT: dropped 3 CAN frames on 'can0' socket (total drops 3)\n"
+                                       "(1700000000.004000) can0 20000004#0008000000006000\n");
+  const auto printed = of(
+      "Timestamp: 1700000000.000260    ID: 011    S Rx                DL:  8    01 80 00 66 68 38 46 00     "
+      "Channel: can0\n"
+      "Timestamp: 1700000000.001000    ID: 001    S Rx     R          DL:  8     Channel: can0\n"
+      "Timestamp: 1700000000.002000    ID: 00002901    X Rx            DL:  2    01 fe     Channel: can0\n"
+      "Timestamp: 1700000000.003000    ID: 00000004    X Rx   E        DL:  1    00     Channel: can0\n");
+  ASSERT_TRUE(printed);
+  EXPECT_EQ(converted(*printed), std::string(kOneFrame) +
+                                     "(1700000000.001000) can0 001#R8\n(1700000000.002000) can0 "
+                                     "00002901#01FE\n(1700000000.003000) can0 20000004#00\n");
+}
+
 TEST_F(Formats, Utf16IsConvertedByTheLineGiven) {
   std::string text = "\xff\xfe";
   for (const char* c = kOneFrame; *c != '\0'; ++c) text += std::string{*c, '\0'};

@@ -76,5 +76,6 @@ std::vector<ForeignCondition> conditions_of_tables();
 std::vector<ForeignCondition> conditions_of_units();
 std::vector<ForeignCondition> conditions_of_samples();
 std::vector<ForeignCondition> conditions_of_clocks();
+std::vector<ForeignCondition> conditions_of_texts();
 
 }  // namespace sandhopper

@@ -35,6 +35,27 @@ std::vector<ForeignCondition> conditions_of_samples() {
        plate(
            kNamesInSi, [](auto r) { return si_at(r.t_s, plate_row(std::min(r.i, 79))); }, 100),
        intruder, true},
+      {"zeros where a force had no sample",
+       plate(kNamesInSi,
+             [](auto r) {
+               if (r.i > 10 && r.i % 9 == 4) r.force_N = 0.0;
+               return si_at(r.t_s, r);
+             }),
+       intruder, true},
+      {"a force that the logger held for a while",
+       plate(kNamesInSi,
+             [](auto r) {
+               if (r.i > 30 && r.i < 45) r.force_N = plate_row(30).force_N;
+               return si_at(r.t_s, r);
+             }),
+       intruder, true},
+      {"angle and speed under each other's name",
+       axis("t_s,velocity_radps,position_rad,torque_Nm",
+            [](auto r) {
+              return fmt::format("{:.2f},{:.6f},{:.6f},{:.6f}", r.t_s, r.angle_rad, r.speed_radps,
+                                 r.torque_Nm);
+            }),
+       rotary_axis, false},
   };
 }
 

@@ -62,7 +62,7 @@ TEST(Units, NamesAreRead) {
     EXPECT_EQ(unit(name)->dimension, dimension) << name;
     EXPECT_NEAR(unit(name)->to_si / to_si, 1.0, 1e-6) << name;
   }
-  for (const auto* name : {"foot", "height", "Load cell (left)", "Ch 1", "position", "torquemNm"})
+  for (const auto* name : {"foot", "height", "Load cell (left)", "Ch 1", "position"})
     EXPECT_FALSE(unit(name)) << name;
 }
 

@@ -9,6 +9,7 @@
 
 #include "config/robot_config.hpp"
 #include "firmware/log/candump.hpp"
+#include "firmware/log/mcap_parts.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/mcap_writer.hpp"
 #include "firmware/log/topics.hpp"
@@ -197,6 +198,96 @@ TEST_F(Recover, OtherFilesAreRefused) {
   EXPECT_THROW(recover("t_s,phase\n0,1\n"), mcap::Error);
   EXPECT_THROW(recover(""), mcap::Error);
   EXPECT_FALSE(std::filesystem::exists(saved_));
+}
+
+TEST_F(Recover, ALogAppendedToItselfCountsOnce) {
+  for (const auto& bytes : {whole_ + whole_, whole_ + whole_ + whole_.substr(0, whole_.size() / 2),
+                            whole_.substr(0, whole_.size() / 2) + whole_}) {
+    const auto found = recover(bytes);
+    EXPECT_FALSE(found.whole);
+    EXPECT_GE(found.copies, 2U);
+    EXPECT_EQ(found.saved(), all_.data.size());
+    EXPECT_EQ(found.lost(), 0U);
+    EXPECT_TRUE(found.end_is_known());
+    EXPECT_EQ(bytes_of_file(saved_), whole_);
+  }
+}
+
+TEST_F(Recover, DifferentLogsInOneFileAreCutByTheCommandsGiven) {
+  const auto other = folder_ / "other.mcap";
+  {
+    mcap::Writer writer(other);
+    const auto events = writer.add_channel<Event>(topic::kEvent);
+    for (int i = 0; i < 5; ++i) writer.write(events, {}, Event{.time_ns = i});
+    writer.close();
+  }
+  const std::string second = bytes_of_file(other);
+  try {
+    recover(whole_ + second);
+    FAIL() << "the second log would be mixed with the first";
+  } catch (const mcap::SeveralLogs& error) {
+    EXPECT_NE(std::string(error.what()).find("2 different logs"), std::string::npos) << error.what();
+    const auto command = "cd '" + folder_.string() + "' && " + error.cure.substr(error.cure.find("tail"));
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;  // NOLINT(concurrency-mt-unsafe)
+    EXPECT_EQ(bytes_of_file(folder_ / "log_1.mcap"), whole_);
+    EXPECT_EQ(bytes_of_file(folder_ / "log_2.mcap"), second);
+  }
+  EXPECT_FALSE(std::filesystem::exists(saved_));
+}
+
+TEST_F(Recover, BytesBehindTheEndOfAClosedLogMissNothing) {
+  for (const auto& tail : {std::string(65'536, '\0'), std::string("and some text\n")}) {
+    const auto found = recover(whole_ + tail);
+    EXPECT_FALSE(found.whole);
+    EXPECT_FALSE(found.cut_at);
+    EXPECT_TRUE(found.end_is_known());
+    EXPECT_EQ(found.bytes_behind_end, tail.size());
+    EXPECT_EQ(found.zeros_behind_end, tail[0] == '\0');
+    EXPECT_EQ(found.saved(), all_.data.size());
+    EXPECT_EQ(bytes_of_file(saved_), whole_);
+  }
+}
+
+TEST_F(Recover, ZerosBehindALogThatWasNotClosedAreACut) {
+  const auto found = recover(whole_.substr(0, whole_.size() / 2) + std::string(4'096, '\0'));
+  EXPECT_TRUE(found.cut_at);
+  EXPECT_FALSE(found.end_is_known());
+}
+
+TEST_F(Recover, ZerosInCanTextLoseTheFrameThatTheyCut) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += "(1.0" + std::to_string(100 + i) + ") can0 001#0011223344556677\n";
+  const auto line = text.find('\n') + 1;
+  const auto recover_text = [&](std::size_t at) {
+    std::string damaged = text;
+    std::ofstream(cut_, std::ios::binary) << damaged.insert(at, 4'096, '\0');
+    std::filesystem::remove(saved_);
+    return recover_candump(cut_, saved_);
+  };
+  const auto within = recover_text(40 * line + 20);
+  EXPECT_EQ(within.topics.at("can0").saved, 99U);
+  EXPECT_EQ(within.topics.at("can0").lost, 1U);
+  EXPECT_TRUE(within.loses_at_least);
+  const auto between = recover_text(40 * line);
+  EXPECT_EQ(between.topics.at("can0").saved, 100U);
+  EXPECT_EQ(between.topics.at("can0").lost, 0U);
+  EXPECT_TRUE(between.loses_at_least) << "the zeros may stand for frames";
+  EXPECT_EQ(bytes_of_file(saved_), text);
+}
+
+TEST_F(Recover, CanTextAppendedToItselfCountsOnce) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += "(1.0" + std::to_string(100 + i) + ") can0 001#0011223344556677\n";
+  const auto recover_text = [&](const std::string& all) {
+    std::ofstream(cut_, std::ios::binary) << all;
+    std::filesystem::remove(saved_);
+    return recover_candump(cut_, saved_);
+  };
+  const auto twice = recover_text(text + text);
+  EXPECT_EQ(twice.copies, 2U);
+  EXPECT_EQ(twice.saved(), 100U);
+  EXPECT_EQ(bytes_of_file(saved_), text);
+  EXPECT_TRUE(recover_text(text).whole);
 }
 
 TEST_F(Recover, CanTextLosesItsTornLineAndSaysSo) {

@@ -17,17 +17,19 @@ using ::testing::Not;
 // Terrain of two presses that read `zero_N` above the surface and 52.5 N at the most beyond it.
 std::string terrain(double zero_N, const std::string& columns = "") {
   CampaignFolder folder;
-  std::string press = "t_s,foot_z_m,force_N\n";
-  for (int i = 0; i < 200; ++i) {
-    const double depth = 2e-4 * i - 0.005;
-    press += fmt::format("{:.2f},{:.6f},{:.4f}\n", 0.01 * i, -depth,
-                         1500.0 * std::max(0.0, depth) + zero_N + 0.02 * std::sin(7.0 * i * i));
+  for (const int noise : {7, 11}) {  // of each press its own
+    std::string press = "t_s,foot_z_m,force_N\n";
+    for (int i = 0; i < 200; ++i) {
+      const double depth = 2e-4 * i - 0.005;
+      press += fmt::format("{:.2f},{:.6f},{:.4f}\n", 0.01 * i, -depth,
+                           1500.0 * std::max(0.0, depth) + zero_N + 0.02 * std::sin(noise * i * i));
+    }
+    folder.write(fmt::format("{}.csv", noise), press);
   }
-  folder.write("a.csv", press)
-      .write("campaign.toml",
-             "plant = \"intruder\"\n" + columns +
-                 "[every_trial]\nkind = \"press\"\nplate_diameter_m = 0.08\n[[trial]]\nfile = \"a.csv\"\n"
-                 "[[trial]]\nfile = \"a.csv\"\n");
+  folder.write("campaign.toml",
+               "plant = \"intruder\"\n" + columns +
+                   "[every_trial]\nkind = \"press\"\nplate_diameter_m = 0.08\n[[trial]]\nfile = \"7.csv\"\n"
+                   "[[trial]]\nfile = \"11.csv\"\n");
   const auto results = analyse_campaign(load_campaign(folder.path()), {});
   std::string text;
   for (const auto& line : report_on(results).lines) text += line + "\n";

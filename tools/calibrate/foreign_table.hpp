@@ -18,11 +18,15 @@ struct ForeignTableError : std::runtime_error {
 // One column of the table against time.
 struct ForeignTable {
   ForeignRecording recording;
+  double time_scale = 1.0;         // seconds in the unit of the table's t_s; the recording is in seconds
   std::vector<std::string> notes;  // problems found in a table that can still be used
 };
 
-// Reads column `column` against t_s. Throws ForeignTableError if a column is missing, if the clock goes
-// backwards, or if most cells of the column are no number; std::system_error if the file cannot be opened.
-ForeignTable read_foreign_table(const std::filesystem::path& file, const std::string& column);
+// Reads column `column` against t_s. The times are in `time_unit` (foreign_time.hpp); if it is empty, in the
+// unit of the table's line of units, or in seconds. Throws ForeignTableError if a column is missing, if the
+// clock goes backwards, if most times are no number or repeat, or if most cells of the column are no number;
+// std::system_error if the file cannot be opened.
+ForeignTable read_foreign_table(const std::filesystem::path& file, const std::string& column,
+                                const std::string& time_unit = {});
 
 }  // namespace sandhopper::calibrate

@@ -11,7 +11,9 @@
 #include "terrain/trial_statistics.hpp"
 #include "tools/calibrate/clock_step.hpp"
 #include "tools/calibrate/devices.hpp"
+#include "tools/calibrate/foreign_time.hpp"
 #include "tools/calibrate/line.hpp"
+#include "tools/calibrate/tap_alignment.hpp"
 #include "tools/calibrate/taps.hpp"
 
 namespace sandhopper::calibrate {
@@ -129,46 +131,71 @@ void calibrate_sensor(const Recording& r, const LinuxBoardConfig& board, TapSens
                      name_of(setup.reference))});
 }
 
-// Offset at which most foreign taps coincide with ours within 10 ms; the first of several equal ones.
-std::optional<double> coarse_offset(const std::vector<double>& taps, const std::vector<double>& foreign) {
-  constexpr double kClose_s = 0.01;
-  std::optional<double> best;
-  std::size_t most = 0;
-  for (const double here : taps)
-    for (const double there : foreign) {
-      const double offset = here - there;
-      const auto matched = std::ranges::count_if(foreign, [&](double f) {
-        return std::ranges::any_of(taps, [&](double t) { return std::abs(t - f - offset) < kClose_s; });
-      });
-      if (static_cast<std::size_t>(matched) > most) {
-        most = static_cast<std::size_t>(matched);
-        best = offset;
-      }
+Refusal refusal_of(const ClockStep& step, const std::string& name) {
+  return {
+      "clock_steps",
+      fmt::format("the clock of {} was set {} by {:.3f} s between {:.3f} and {:.3f} s of its time", name,
+                  step.step_s > 0.0 ? "forward" : "back", std::abs(step.step_s), step.before_s, step.after_s),
+      "stop time synchronisation on that computer while it records; or give the part before or after it "
+      "alone"};
+}
+
+// Median time between neighbouring taps.
+double interval_s(const std::vector<double>& taps) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < taps.size(); ++i) steps.push_back(taps[i] - taps[i - 1]);
+  if (steps.empty()) return 0.0;
+  std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
+  return steps[steps.size() / 2];
+}
+
+TapTimes times_of(const std::vector<double>& taps, const Series& signal) {
+  return {taps, signal.time_s.front(), signal.time_s.back()};
+}
+
+// The offset at which the foreign taps coincide with ours, or a refusal.
+std::optional<double> coarse_offset(const TapTimes& ours, const ForeignRecording& foreign,
+                                    std::vector<Refusal>& refusals) {
+  std::vector<Refusal> refused;
+  const auto taps = find_taps(foreign.signal, {kFewestTaps, foreign.name}, refused);
+  const auto theirs = foreign.signal.time_s.empty() ? TapTimes{} : times_of(taps, foreign.signal);
+  const auto alignments = tap_alignments(ours, theirs);
+  if (alignments.empty() && !foreign.signal.time_s.empty())
+    if (const auto unit = unit_that_fits(ours, foreign.signal)) {
+      refusals.push_back(
+          {"time_unit",
+           fmt::format("the taps of {} fit ours if its t_s is in {}, not in s", foreign.name, *unit),
+           "say so: --foreign-time-unit " + *unit});
+      return std::nullopt;
     }
-  return most >= kFewestTaps && 2 * most > foreign.size() ? best : std::nullopt;
+  refusals.insert(refusals.end(), refused.begin(), refused.end());
+  if (!refused.empty()) return std::nullopt;
+  if (const auto step = step_between_taps(ours.tap_s, taps)) {
+    refusals.push_back(refusal_of(*step, foreign.name));
+    return std::nullopt;
+  }
+  if (alignments.empty()) {
+    refusals.push_back({"taps_differ",
+                        fmt::format("{} has taps at other intervals: {:.3f} s from tap to tap, ours {:.3f} s "
+                                    "(medians)",
+                                    foreign.name, interval_s(taps), interval_s(ours.tap_s)),
+                        "see that both recordings are of the same taps, and that t_s is in seconds"});
+    return std::nullopt;
+  }
+  if (const auto rivals = rivals_of_first(alignments); !rivals.empty()) {
+    refusals.push_back(ambiguous_alignment(foreign.name, alignments.front(), rivals));
+    return std::nullopt;
+  }
+  return alignments.front().offset_s;
 }
 
 void calibrate_clock(const Series& reference, const std::vector<double>& taps, const TimingSetup& setup,
                      std::optional<ForeignClock>& clock, Outcome& out) {
   const auto& foreign = *setup.foreign;
-  const auto their_taps = find_taps(foreign.signal, {kFewestTaps, foreign.name}, out.refusals);
-  if (!out.refusals.empty()) return;
-  const auto refuse_step = [&](const ClockStep& step) {
-    out.refusals.push_back(
-        {"clock_steps",
-         fmt::format("the clock of {} was set {} by {:.3f} s between {:.3f} and {:.3f} s of its time",
-                     foreign.name, step.step_s > 0.0 ? "forward" : "back", std::abs(step.step_s),
-                     step.before_s, step.after_s),
-         "stop time synchronisation on that computer while it records; or give the part before or after it "
-         "alone"});
-  };
-  if (const auto step = step_between_taps(taps, their_taps)) return refuse_step(*step);
-  const auto offset = coarse_offset(taps, their_taps);
-  if (!offset) {
-    out.refusals.push_back({"taps_differ", fmt::format("{} has taps at other intervals", foreign.name),
-                            "see that both recordings are of the same taps"});
-    return;
-  }
+  const auto offset = coarse_offset(times_of(taps, reference), foreign, out.refusals);
+  if (!offset) return;
+  std::vector<Refusal> known;
+  const auto their_taps = find_taps(foreign.signal, {kFewestTaps, foreign.name}, known);
   // Taps that occur in both recordings.
   std::vector<double> common;
   for (const double tap : taps)
@@ -182,7 +209,10 @@ void calibrate_clock(const Series& reference, const std::vector<double>& taps, c
     theirs.push_back(common[i] + delays.delay_s[i]);
     offsets.push_back(-delays.delay_s[i]);
   }
-  if (const auto step = step_in_offsets(theirs, offsets, setup.max_foreign_ci95_s)) return refuse_step(*step);
+  if (const auto step = step_in_offsets(theirs, offsets, setup.max_foreign_ci95_s)) {
+    out.refusals.push_back(refusal_of(*step, foreign.name));
+    return;
+  }
   const auto mean = mean_over_trials(theirs);
   std::vector<double> centred = theirs;
   for (auto& t : centred) t -= mean.value;

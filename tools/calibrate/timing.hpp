@@ -41,8 +41,9 @@ struct ForeignClock {
 //
 // Refusals: too_few_points (fewer than five taps); double_tap; saturated (a sensor at its end);
 // residual_too_large (a signal that differs from the reference in shape); taps_differ (the foreign recording
-// has other taps); clock_steps (the foreign clock was set meanwhile); interval_too_wide (the delays scatter);
-// negative_latency.
+// has other taps); time_unit (they fit if the foreign times are in another unit); alignment_ambiguous (evenly
+// spaced taps fit at several offsets); clock_steps (the foreign clock was set meanwhile); interval_too_wide
+// (the delays scatter); negative_latency.
 Outcome calibrate_timing(const Recording& taps, const LinuxBoardConfig& board, const TimingSetup& setup,
                          std::optional<ForeignClock>& clock);
 

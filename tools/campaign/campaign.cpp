@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 
 #include "config/hint.hpp"
 #include "config/load.hpp"
+#include "tools/campaign/column_mapping.hpp"
 #include "tools/campaign/config_number.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/recordings_folder.hpp"
+#include "tools/campaign/setup_doubts.hpp"
 #include "tools/campaign/table_format.hpp"
-#include "tools/campaign/unit_check.hpp"
 
 namespace sandhopper {
 namespace {
@@ -48,7 +51,8 @@ class Loader {
     const auto document = parse_config_file(campaign_.file.string());
     const auto& root = document.root;
     read_head(root);
-    if (const auto* columns = root.find("columns")) columns_ = read_columns(*columns);
+    if (const auto* columns = root.find("columns"))
+      columns_ = read_columns(*columns, are_columns_understood_);
     if (const auto* available = root.find("available"))
       campaign_.available = read_available(*available, campaign_.file.string(), campaign_.findings);
     if (const auto* format = root.find("format")) take_format(*format, format_);
@@ -106,58 +110,12 @@ class Loader {
     campaign_.recordings = *found;
   }
 
-  // Reads a table of channels and columns. The short form `t_s = "time"` means scale 1, offset 0.
-  std::vector<ColumnMapping> read_columns(const ConfigNode& table) {
-    std::vector<ColumnMapping> columns;
-    for (const auto& child : table.children) {
-      ColumnMapping mapping{child.key, "", 1.0, 0.0, child.key_position, "", false, {}};
-      bool right = true, is_asked = false;  // is_asked: scale = "?"
-      if (child.kind == Kind::text) {
-        mapping.column = child.text;
-      } else if (child.kind == Kind::table) {
-        for (const auto& part : child.children) {
-          const auto number = number_of(part);
-          if (part.key == "column" && part.kind == Kind::text)
-            mapping.column = part.text;
-          else if (part.key == "scale" && number)
-            mapping.scale = *number, mapping.has_scale = true;
-          else if (part.key == "scale" && part.kind == Kind::text && part.text == kUnknownNumber)
-            is_asked = true;
-          else if (part.key == "unit" && part.kind == Kind::text)
-            mapping.unit = part.text;
-          else if (part.key == "offset" && number)
-            mapping.offset = *number;
-          else if (part.key == "plus" && part.kind == Kind::table && child.key == "t_s")
-            right = right && read_plus(part, mapping.plus);
-          else
-            right = false;
-        }
-      }
-      if (!right || mapping.column.empty()) {
-        add(FindingKind::set_up, FindingSeverity::channel_unusable, child.key_position, child.key,
-            "this mapping cannot be understood",
-            fmt::format("write {} = {{ column = \"NAME\", unit = \"mm\", scale = 0.001, offset = 0.0 }}",
-                        child.key));
-        continue;
-      }
-      if (is_asked && mapping.unit.empty()) mapping.unit = kUnknownUnit;
-      check_mapped(mapping);
-      columns.push_back(std::move(mapping));
-    }
-    return columns;
-  }
-
-  bool read_plus(const ConfigNode& table, AddedColumn& plus) {
-    for (const auto& part : table.children) {
-      const auto number = number_of(part);
-      if (part.key == "column" && part.kind == Kind::text)
-        plus.column = part.text;
-      else if (part.key == "scale" && number)
-        plus.scale = *number;
-      else
-        return false;
-    }
-    return !plus.column.empty();
+  // `understood` becomes false if a mapping is not.
+  std::vector<ColumnMapping> read_columns(const ConfigNode& table, bool& understood) {
+    auto read = read_column_table(table, campaign_.plant, campaign_.file.string());
+    if (any_unusable(read.findings)) understood = false;
+    std::ranges::move(read.findings, std::back_inserter(campaign_.findings));
+    return std::move(read.columns);
   }
 
   bool take_format(const ConfigNode& table, CsvFormat& format) {
@@ -166,16 +124,6 @@ class Loader {
       add(FindingKind::file_format, FindingSeverity::trial_unusable, problem.position, problem.key,
           std::move(problem.text), "see [format] in tools/campaign/README.md");
     return problems.empty();
-  }
-
-  void check_mapped(const ColumnMapping& mapping) {
-    if (mapping.channel == "t_s" || find_channel(campaign_.plant, mapping.channel)) return;
-    std::vector<std::string> known{"t_s"};
-    for (const auto& channel : known_channels())
-      if (channel.plant == campaign_.plant) known.emplace_back(channel.name);
-    add(FindingKind::unknown_column, FindingSeverity::note, mapping.position, mapping.channel,
-        fmt::format("is no channel of plant \"{}\"", name_of(campaign_.plant)),
-        cure_for_unknown_key(mapping.channel, std::nullopt, known));
   }
 
   void read_trials(const ConfigNode& root) {
@@ -223,14 +171,14 @@ class Loader {
     trial.index = campaign_.trials.size();
     trial.entry = entry;
     trial.format = format_;
-    bool usable = true;
+    bool usable = are_columns_understood_;
     std::vector<ConfigProblem> problems;
     for (const auto& child : node.children) {
       if (child.key == "file") continue;
       if (child.key == "kind")
         usable &= read_kind(child, trial);
       else if (child.key == "columns" && child.kind == Kind::table)
-        trial.columns = read_columns(child);
+        trial.columns = read_columns(child, usable);
       else if (child.key == "select" && child.kind == Kind::table)
         usable &= read_selection(child, trial);
       else if (child.key == "also" && child.kind == Kind::table)
@@ -243,6 +191,7 @@ class Loader {
     for (const auto& problem : problems)
       add(FindingKind::set_up, FindingSeverity::trial_unusable, problem.position, problem.key, problem.text,
           "correct the value in this [[trial]]");
+    usable &= judge_setup(trial);
     if (!usable || !problems.empty()) return;
     for (const auto& number : campaign_.unstated)
       if (!trial.states(number.key)) trial.unstated.push_back(number);
@@ -297,9 +246,10 @@ class Loader {
     if (const auto* format = table.find("format");
         format != nullptr && !take_format(*format, companion.format))
       return false;
-    if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns);
+    bool understood = true;
+    if (const auto* columns = table.find("columns")) companion.columns = read_columns(*columns, understood);
     trial.companions.push_back(std::move(companion));
-    return true;
+    return understood;
   }
 
   void read_setup(const ConfigNode& node, CampaignTrial& trial, std::vector<ConfigProblem>& problems) {
@@ -322,6 +272,16 @@ class Loader {
     trial.setup.push_back(std::move(entry));
   }
 
+  // Adds what is doubtful in the set-up; keys of [every_trial] are told once.
+  bool judge_setup(const CampaignTrial& trial) {
+    if (!doubts_) doubts_.emplace(campaign_.plant, campaign_.file.string());
+    const auto found = doubts_->of(trial);
+    for (const auto& finding : found)
+      if (std::ranges::find(campaign_.findings, finding) == campaign_.findings.end())
+        campaign_.findings.push_back(finding);
+    return found.empty();
+  }
+
   void note_unknown(const ConfigNode& node) {
     static const std::vector<std::string> kKnown{"name",      "plant",   "model",  "data",        "source",
                                                  "available", "columns", "format", "every_trial", "trial"};
@@ -338,6 +298,8 @@ class Loader {
 
   Campaign campaign_;
   std::vector<ColumnMapping> columns_;
+  bool are_columns_understood_ = true;
+  std::optional<SetupDoubts> doubts_;
   CsvFormat format_{};
 };
 

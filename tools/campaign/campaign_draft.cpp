@@ -16,6 +16,7 @@
 #include "tools/campaign/draft_setups.hpp"
 #include "tools/campaign/plant_guess.hpp"
 #include "tools/campaign/read_table.hpp"
+#include "tools/campaign/text_checks.hpp"
 #include "tools/campaign/unit_check.hpp"
 #include "tools/campaign/used_column.hpp"
 #include "tools/campaign/vector_axes.hpp"
@@ -56,6 +57,15 @@ class Drafter {
           issue.fault == CsvFault::names_do_not_fit)
         throw std::runtime_error(describe_issue(issue));
     if (table_.names.empty()) throw std::runtime_error(files_.front().string() + " holds no table");
+    look_again(format);
+  }
+  // What only the text shows: units outside the names, and a sign that may divide thousands.
+  void look_again(const CsvFormat& format) {
+    std::ifstream in(files_.front(), std::ios::binary);
+    const auto text = look_at_text(in, table_, format, {});
+    take_units_of_text(text, table_, std::vector<std::string>(table_.names.size()));
+    table_.layout.is_ambiguous |=
+        std::ranges::any_of(text.grouped, [](const std::string& cell) { return !cell.empty(); });
   }
   std::string describe_issue(const CsvIssue& issue) const {
     return files_.front().string() + ": " + issue.text +
@@ -306,7 +316,8 @@ class Drafter {
                              : scale == 1e-9 ? "ns"
                                              : "s";
     const bool is_clock = std::ranges::find(table_.clocks, table_.names[*time_]) != table_.clocks.end();
-    const bool is_doubtful = !unit && !is_clock && doubt_time(values, "").has_value() && scale == 1.0;
+    const bool is_unknown = unit ? !known : doubt_time(values, "").has_value();
+    const bool is_doubtful = !is_clock && scale == 1.0 && is_unknown;
     return mapping("t_s", table_.names[*time_], is_doubtful ? kUnknownUnit : name, scale, 0.0, second_time());
   }
 

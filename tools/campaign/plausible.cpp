@@ -182,6 +182,7 @@ std::string text_of_gravity(double g) {
 void check_density(const FallingBodyBelief& belief, std::vector<Finding>& out, const std::string& file) {
   constexpr double kDensest_kg_per_m3 = 22600.0;  // osmium
   constexpr double kDropped_kg = 25.0;            // Most that a person may lift, ISO 11228-1 (2021).
+  constexpr double kLightest_kg_per_m3 = 0.08;    // hydrogen in a laboratory, the lightest gas
   constexpr double kLongest = 30.0;               // Length / diameter of the most slender penetrometers.
   const double area_m2 = belief.body.frontal_area_m2;
   const double length_m = kLongest * std::sqrt(4.0 * area_m2 / std::numbers::pi);
@@ -191,6 +192,11 @@ void check_density(const FallingBodyBelief& belief, std::vector<Finding>& out, c
     out.push_back({FindingKind::implausible, note, file, 0, 0, "body.mass_kg", std::move(what),
                    "is it in g? write it in kg"});
   };
+  const double medium = belief.medium.density_kg_per_m3;
+  if (medium > 0.0 && medium < kLightest_kg_per_m3)
+    out.push_back({FindingKind::implausible, note, file, 0, 0, "medium.density_kg_per_m3",
+                   fmt::format("{:.4g} kg/m3 is lighter than any gas in a laboratory", medium),
+                   fmt::format("is it in g/cm3? write density_kg_per_m3 = {:.4g}", 1e3 * medium)});
   if (volume_m3 > 0.0 && mass_kg > kDensest_kg_per_m3 * volume_m3)
     add(fmt::format("{:.4g} kg in {:.3g} m3 at most is denser than any metal", mass_kg, volume_m3));
   else if (mass_kg > kDropped_kg)

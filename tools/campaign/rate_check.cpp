@@ -70,7 +70,7 @@ class RateChecker {
     for (const auto& pair : kPairs) {
       if (!recording_.has(pair.position) || !recording_.has(pair.speed)) continue;
       const auto found = slope(pair.position, pair.speed);
-      if (!found || look_for_exchange(pair, *found)) continue;
+      if (!found || look_for_crossing(pair, *found) || look_for_exchange(pair, *found)) continue;
       if (found->together > 0.8) judge(pair, *found);
     }
   }
@@ -175,6 +175,33 @@ class RateChecker {
                     pair.speed, std::sqrt(own.together), best->name, std::sqrt(most.together)),
         std::move(cure), is_stated(pair.position, pair.speed));
     return true;
+  }
+
+  // The position is the rate of the speed. In a swing the rate of a speed falls as the angle grows, so that a
+  // speed that goes against the rate of its position, and the position with the rate of the speed, tells
+  // exchanged columns from another unit or sign.
+  bool look_for_crossing(const Pair& pair, const Slope& own) {
+    constexpr double kGainError = 0.1;  // of a speed; another unit of the position is farther from 1
+    if (own.slope > 0.0) return false;
+    const auto crossed = slope(pair.speed, pair.position);
+    if (!crossed || crossed->together < 0.98 || std::abs(crossed->slope - 1.0) > kGainError) return false;
+    const auto *x = places_.column_of(pair.position), *v = places_.column_of(pair.speed);
+    std::string cure = "exchange the two columns in [columns]";
+    if (x != nullptr && v != nullptr)
+      cure = fmt::format("write {} and {} into [columns]", mapping_line(in_place_of(*v, *x)),
+                         mapping_line(in_place_of(*x, *v)));
+    add(pair.position,
+        fmt::format("is the rate of {} (correlation {:.2f}), which goes against the rate of {}: the two "
+                    "columns are exchanged",
+                    pair.speed, std::sqrt(crossed->together), pair.position),
+        std::move(cure), is_stated(pair.position, pair.speed));
+    return true;
+  }
+
+  // The column as another channel's. With unit and scale both stated the unit in its name does not count.
+  static UsedColumn in_place_of(UsedColumn column, const UsedColumn& other) {
+    column.channel = other.channel;
+    return in_other_unit(std::move(column), 1.0);
   }
 
   bool is_stated(std::string_view position, std::string_view speed) const {

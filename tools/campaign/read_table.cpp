@@ -15,6 +15,7 @@
 #include "firmware/records.hpp"
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/table_issues.hpp"
+#include "tools/campaign/text_checks.hpp"
 #include "tools/campaign/written_unit.hpp"
 
 namespace sandhopper {
@@ -49,6 +50,7 @@ class TableReader {
     out_.file = file->string();
     if (!read(*file)) return std::nullopt;
     translate_issues(campaign_, trial_, out_, findings_);
+    if (!out_.own_log && out_.table.rows() > 0) look_at_text(*file);
     describe_format();
     return std::move(out_);
   }
@@ -159,6 +161,24 @@ class TableReader {
     in.seekg(0);
     options.time_column = table.names[static_cast<std::size_t>(other - table.columns.data())];
     return read_csv(in, options);
+  }
+
+  void look_at_text(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    check_text(in, campaign_, trial_, out_, findings_);
+    const auto& layout = out_.table.layout;
+    constexpr std::string_view kNoCharacter = "\xEF\xBF\xBD";
+    const auto& names = out_.table.names;
+    const auto unread = std::ranges::find_if(
+        names, [&](const std::string& name) { return name.find(kNoCharacter) != std::string::npos; });
+    if (layout.encoding == TextEncoding::windows_1252 && unread != names.end())
+      add(FindingKind::file_format, trial_unusable, layout.header_line,
+          fmt::format(
+              "the name \"{}\" holds a byte that has no character in Windows-1252: the file is neither that "
+              "nor UTF-8, but perhaps Shift-JIS, GB18030 or CP1251",
+              *unread),
+          "save it as UTF-8, for example with iconv -f SHIFT-JIS -t UTF-8 FILE > FILE.csv, or write [format] "
+          "header_line = 0 and names = […]");
   }
 
   // One note with everything unusual about the format.

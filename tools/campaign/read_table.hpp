@@ -16,6 +16,9 @@ struct TrialTable {
   bool own_log = false;
   // Unusable columns: most cells are not numbers, or the name occurs twice.
   std::vector<std::string> unusable_columns{};
+  // For each column the words for the place of its unit ("line 3, \"Force unit: kN\", says"), if that is not
+  // the row of units; see text_checks.
+  std::vector<std::string> unit_sources{};
 };
 
 // Finds the file (a recording, or a folder that holds one), reads it, and adds its problems to `findings`.

@@ -13,11 +13,13 @@
 #include "tools/campaign/companion.hpp"
 #include "tools/campaign/exchanged_columns.hpp"
 #include "tools/campaign/frozen_rows.hpp"
+#include "tools/campaign/full_counters.hpp"
 #include "tools/campaign/plant_doubt.hpp"
 #include "tools/campaign/position_loop.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/sample_checks.hpp"
 #include "tools/campaign/sample_times.hpp"
+#include "tools/campaign/shared_columns.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/trial_rows.hpp"
 #include "tools/campaign/unit_check.hpp"
@@ -44,6 +46,7 @@ class Reader {
     if (!read) return std::move(out_);
     table_ = std::move(read->table);
     unusable_columns_ = std::move(read->unusable_columns);
+    unit_sources_ = std::move(read->unit_sources);
     out_.own_log = read->own_log;
     file_ = places_.file = read->file;
     places_.format = trial_.format;
@@ -68,6 +71,8 @@ class Reader {
   }
 
   void take_columns() {
+    if (auto shared = shared_column(table_, trial_, campaign_.file.string()))
+      return out_.findings.push_back(std::move(*shared));
     used_.assign(table_.names.size(), false);
     take_time();
     std::vector<std::string_view> taken{"t_s"};
@@ -198,6 +203,7 @@ class Reader {
     return {.column = table_.names[i],
             .channel = mapping.channel,
             .row_unit = table_.units[i],
+            .row_source = i < unit_sources_.size() ? unit_sources_[i] : "",
             .stated_unit = mapping.unit,
             .scale = mapping.scale,
             .has_scale = mapping.has_scale,
@@ -241,8 +247,10 @@ class Reader {
         std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
     if (empty) return;  // Treat it like a missing column.
     if (!out_.own_log) look_at_numbers(i, mapping, values);
+    if (!out_.own_log) tell_done(i, mapping, put_register_back(values));
     for (double& value : values) value = *scale * value + mapping.offset;
-    if (!out_.own_log && mapping.channel.ends_with("position_rad")) unwrap(i, mapping, values);
+    if (!out_.own_log && mapping.channel.ends_with("position_rad"))
+      tell_done(i, mapping, put_angle_back(values));
     out_.channels.push_back({mapping.channel, std::move(values)});
     places_.numbers.push_back(table_.numbers[i]);
   }
@@ -267,8 +275,7 @@ class Reader {
           "export the table again, or give names = [...] in [format] with header_line = 0");
   }
 
-  void unwrap(std::size_t i, const ColumnMapping& mapping, std::vector<double>& values) {
-    const auto done = put_angle_back(values);
+  void tell_done(std::size_t i, const ColumnMapping& mapping, const std::string& done) {
     if (!done.empty())
       add(FindingKind::file_format, note, table_.layout.header_line, header_character(i), table_.names[i],
           fmt::format("for {}: {}", mapping.channel, done), "");
@@ -365,6 +372,7 @@ class Reader {
   RecordingPlaces places_;
   std::vector<bool> used_;  // Columns that became a channel.
   std::vector<std::string> unusable_columns_;
+  std::vector<std::string> unit_sources_;
 };
 
 }  // namespace

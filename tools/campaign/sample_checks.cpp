@@ -2,9 +2,12 @@
 
 #include "tools/campaign/axis_torque_check.hpp"
 #include "tools/campaign/clock_checks.hpp"
+#include "tools/campaign/fall_accel_check.hpp"
 #include "tools/campaign/fall_check.hpp"
 #include "tools/campaign/gravity_check.hpp"
+#include "tools/campaign/fall_limits.hpp"
 #include "tools/campaign/hopper_check.hpp"
+#include "tools/campaign/lost_forces.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/press_speed_check.hpp"
 #include "tools/campaign/rate_check.hpp"
@@ -18,14 +21,17 @@ namespace sandhopper {
 void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places) {
   check_held_samples(recording, places);
+  check_lost_forces(recording, places);
   check_plausible(recording, campaign, trial, places);
   check_rates(recording, places);
   check_gravity(recording, places);
   check_falls(recording, campaign, trial, places);
+  check_fall_limits(recording, campaign, trial, places);
   check_press_speed(recording, campaign, trial, places);
   check_axis_torque(recording, campaign, trial, places);
   check_hopper(recording, campaign, trial, places);
-  check_signs(recording, campaign, trial, places);
+  if (!check_fall_acceleration(recording, campaign, trial, places))
+    check_signs(recording, campaign, trial, places);
   check_surface(recording, campaign, trial, places);
   check_value_steps(recording, places);
   check_clock_steps(recording, places);

@@ -16,7 +16,7 @@ using enum FindingSeverity;
 
 constexpr double kShortHold_s = 0.5;  // before a body is let go, and after it lies
 
-struct Range {
+struct ValueRange {
   double low = INFINITY, high = -INFINITY;
   void take(double value) {
     if (std::isnan(value)) return;
@@ -27,8 +27,8 @@ struct Range {
   double most() const { return std::max(std::abs(low), std::abs(high)); }
 };
 
-Range range_of(std::span<const double> values) {
-  Range range;
+ValueRange range_of(std::span<const double> values) {
+  ValueRange range;
   for (const double value : values) range.take(value);
   return range;
 }
@@ -153,7 +153,7 @@ class SignChecker {
   void check_push() {
     if (!recording_.has("force_N") || !recording_.has("foot_z_m")) return;
     const auto force = recording_.channel("force_N"), z = recording_.channel("foot_z_m");
-    Range forces, heights;
+    ValueRange forces, heights;
     std::vector<double> pairs_force, pairs_z;
     for (std::size_t i = 0; i < force.size(); ++i) {
       if (std::isnan(force[i]) || std::isnan(z[i])) continue;

@@ -15,6 +15,8 @@ namespace {
 using enum FindingSeverity;
 
 constexpr std::size_t kFewestAbove = 10, kFewest = 20;
+// From so few rows a mean is known no better than one row; then it must be clear beside a single row's noise.
+constexpr std::size_t kFewestForZero = 4;
 constexpr double kClear = 5.0;         // in standard deviations
 constexpr double kShareOfPeak = 0.01;  // A smaller force at no contact changes no stiffness visibly.
 constexpr double kLeastTravel_m = 1e-4;
@@ -89,12 +91,13 @@ struct Push {
   // Mean force above the surface, without that of a mass below the cell, if it is clearly not zero.
   double untared_N(double mass_below_kg = 0.0) const {
     const Idle air = idle(0.0);
-    if (air.rows < kFewestAbove) return 0.0;
+    if (air.rows < kFewestForZero) return 0.0;
     const auto falls = mass_below_kg == 0.0 ? std::nullopt : fall();
     const Fall moves = falls.value_or(Fall{});
     const double rest_N = air.mean_N - mass_below_kg * moves.accel_mps2;
-    const double error_N =
-        std::hypot(air.sd_N / std::sqrt(static_cast<double>(air.rows)), mass_below_kg * moves.sd_mps2);
+    const double mean_sd_N =
+        air.rows < kFewestAbove ? air.sd_N : air.sd_N / std::sqrt(static_cast<double>(air.rows));
+    const double error_N = std::hypot(mean_sd_N, mass_below_kg * moves.sd_mps2);
     const bool is_clear = std::abs(rest_N) >= std::max(kClear * error_N, kShareOfPeak * peak_N(air.mean_N));
     return is_clear ? rest_N : 0.0;
   }
@@ -108,7 +111,7 @@ class SurfaceChecker {
       : recording_(recording), trial_(trial), places_(places), push_(recording) {}
 
   void run() {
-    if (push_.depth_m.size() < kFewest || check_travel()) return;
+    if (push_.depth_m.size() < kFewest || check_travel() || check_speed() || check_air()) return;
     check_zero_of_force();
     check_zero_of_depth();
   }
@@ -123,6 +126,52 @@ class SurfaceChecker {
                  fmt::format("moves by {:.3g} mm in all, where a foot that is pushed in moves by millimetres",
                              1e3 * travel_m),
                  column == nullptr ? "correct its scale" : scale_cure(*column));
+    return true;
+  }
+
+  // A mean speed that no foot of a laboratory has: the time is in a larger unit.
+  bool check_speed() {
+    constexpr double kFastest_mps = 10.0;  // a free fall from 5 m, as in plausible.cpp
+    if (push_.t_s.empty()) return false;
+    const auto deepest = std::ranges::max_element(push_.depth_m) - push_.depth_m.begin();
+    const double took_s = push_.t_s[static_cast<std::size_t>(deepest)] - push_.t_s.front();
+    const double way_m = push_.depth_m[static_cast<std::size_t>(deepest)] - push_.depth_m.front();
+    if (!(took_s > 0.0) || way_m <= kFastest_mps * took_s) return false;
+    std::string cure = "correct the unit of the time or of the depth";
+    if (const auto* time = places_.column_of("t_s"); time != nullptr && !time->in_file)
+      cure = fmt::format(
+          "if the time is in hours or minutes write t_s = {{ column = {}, unit = \"h\" }} or "
+          "\"min\" into [columns], else correct the unit of foot_z_m",
+          toml_text(time->column));
+    doubt_column(recording_, places_, places_.is_stated("t_s"), "t_s",
+                 fmt::format("has {:.3g} s for {:.3g} m of depth, {:.3g} m/s: faster than a fall from 5 m",
+                             took_s, way_m, way_m / took_s),
+                 std::move(cure));
+    return true;
+  }
+
+  // Nothing touches the foot above the surface, so a force that varies there as in the bed is of something
+  // else: another rig's recording, or exchanged columns.
+  bool check_air() {
+    constexpr double kAsInBed = 0.5;
+    double sums[2] = {}, squares[2] = {}, rows[2] = {};
+    for (std::size_t i = 0; i < push_.depth_m.size(); ++i) {
+      const int in_bed = push_.depth_m[i] > 0.0 ? 1 : 0;
+      sums[in_bed] += push_.force_N[i], squares[in_bed] += push_.force_N[i] * push_.force_N[i];
+      ++rows[in_bed];
+    }
+    if (std::min(rows[0], rows[1]) < static_cast<double>(kFewest)) return false;
+    const auto sd = [&](int k) {
+      return std::sqrt(std::max(0.0, squares[k] / rows[k] - sums[k] * sums[k] / (rows[k] * rows[k])));
+    };
+    if (mass_below_cell_kg(trial_.belief) != 0.0 || sd(0) < kAsInBed * sd(1)) return false;
+    doubt_column(
+        recording_, places_, places_.is_stated("force_N"), "force_N",
+        fmt::format("varies by {:.3g} N (standard deviation) above the surface and by {:.3g} N below, "
+                    "and above it nothing touches the foot: this is not the recording of a press, or "
+                    "depth or force is another column",
+                    sd(0), sd(1)),
+        "name the right file or column, or count the depth from the surface");
     return true;
   }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/campaign/cell_cures.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -93,26 +95,6 @@ FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, cons
   return meaning_of(issue.fault).severity;
 }
 
-// Advice for an issue. For a cell that is not a number it depends on the text: a unit behind the number, or a
-// decimal comma.
-std::string cure_of(const CsvIssue& issue) {
-  constexpr std::string_view kDigits = "0123456789";
-  const auto last = issue.text.rfind("\" is not a number");
-  const bool has_letters_behind =
-      issue.fault == CsvFault::not_a_number && last != std::string::npos && last > 1 &&
-      kDigits.find(issue.text[last - 1]) == std::string_view::npos &&
-      (kDigits.find(issue.text[1]) != std::string_view::npos || issue.text[1] == '-');
-  if (has_letters_behind)
-    return "if the cells hold a unit or a prefix (k, m) behind the number, write the unit into the column's "
-           "name and "
-           "numbers alone below it";
-  const bool is_comma = issue.fault == CsvFault::not_a_number && issue.text.find(',') != std::string::npos &&
-                        issue.text.find(',') == issue.text.rfind(',') &&
-                        issue.text.find('.') == std::string::npos;
-  if (is_comma) return "if that is a decimal comma write [format] decimal = \",\" into campaign.toml";
-  return std::string(cure_for(issue.fault));
-}
-
 // A hop is cut into its phases by these names: one that is not known would move its parts in silence.
 Finding unknown_phase(const CsvIssue& issue, const std::string& file) {
   const auto word = issue.text.substr(0, issue.text.rfind(" is not a number"));
@@ -151,7 +133,7 @@ void translate_issues(const Campaign& campaign, const CampaignTrial& trial, Tria
                         are_steps
                             ? "if the column holds the time since the row before, export the time itself, "
                               "or leave the column away and write [format] row_every_s = its mean in s"
-                            : cure_of(issue)});
+                            : cure_for_cells(issue, table.table.layout.separator)});
   }
   if (dropped * 5 > table.table.rows())
     findings.push_back({FindingKind::unreadable_file, trial_unusable, table.file, line, 1, "",

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tools/campaign/unit_text.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -58,7 +60,9 @@ UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const
 UnitVerdict stated_alone(ColumnUnits c, double factor, const WrittenUnit& wanted) {
   c.scale = factor;
   const auto [unit, where] = unit_in_file(c);
-  if (!unit || unit->dimension.empty()) return {factor, "", ""};  // An unknown word contradicts nothing.
+  if (!unit) return {factor, "", ""};
+  // An unknown word contradicts nothing, but a factor does: unit = "N" for "F (N, x1000)" says nothing of it.
+  if (unit->dimension.empty() && !holds_factor(unit->text)) return {factor, "", ""};
   if (const auto files = factor_between(*unit, wanted))
     return same(factor, *files) ? UnitVerdict{factor, "", ""}
                                 : disagreement(c, *unit, wanted, *files, where, c.stated_unit);
@@ -88,7 +92,7 @@ UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {
 
 FilesUnit unit_in_file(const ColumnUnits& c) {
   if (auto unit = c.row_unit.empty() ? std::nullopt : read_unit(c.row_unit, true))
-    return {std::move(unit), "the row of units says"};
+    return {std::move(unit), c.row_source.empty() ? "the row of units says" : c.row_source};
   return {c.column == c.channel ? std::nullopt : unit_in_name(c.column), "its name says"};
 }
 

@@ -14,8 +14,9 @@ inline constexpr std::string_view kUnknownUnit = "?";
 struct ColumnUnits {
   std::string column;
   std::string channel;
-  std::string row_unit;     // its cell in the row of units; empty without such a row
-  std::string stated_unit;  // `unit` of its mapping; empty if not stated
+  std::string row_unit;      // its cell in the row of units; empty without such a row
+  std::string row_source{};  // words for another place of `row_unit` in the file
+  std::string stated_unit;   // `unit` of its mapping; empty if not stated
   double scale = 1.0;
   bool has_scale = false;  // True if the mapping states a scale.
   double largest = 0.0;    // Largest number of the column, for the message.
@@ -23,7 +24,7 @@ struct ColumnUnits {
 
 struct FilesUnit {
   std::optional<WrittenUnit> unit;
-  std::string_view where;
+  std::string where;
 };
 
 // Unit in the row of units, else in the column's name.

@@ -4,10 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "config/hint.hpp"
+#include "tools/campaign/spelled_units.hpp"
 #include "tools/campaign/unit_spellings.hpp"
+#include "tools/campaign/unit_text.hpp"
 
 namespace sandhopper {
 namespace {
@@ -51,17 +54,27 @@ std::string without_blanks(std::string_view text) {
 std::optional<WrittenUnit> known_unit(std::string_view text) {
   const std::string name = without_blanks(text);
   if (name.empty()) return std::nullopt;
-  for (const auto& spelling : kSpellings)
-    if (spelling.written == name)
-      return WrittenUnit{std::string(text), std::string(spelling.dimension), spelling.to_si};
+  for (const std::span<const Spelling> spellings :
+       {std::span<const Spelling>(kSpellings), std::span<const Spelling>(kSpelledUnits)})
+    for (const auto& spelling : spellings)
+      if (spelling.written == name)
+        return WrittenUnit{std::string(text), std::string(spelling.dimension), spelling.to_si};
   const auto listed = split_unit("x_" + name);
   if (listed && listed->quantity == "x")
     return WrittenUnit{std::string(text), std::string(listed->dimension), listed->to_si};
   return std::nullopt;
 }
 
-// A unit with a factor: "x10 N", "0.01 mm", "10^-3 m", "1e3 N". A plain number from 1 on is none: "(500 N)"
-// is the range of a load cell.
+// Units of "pi rad", whose numbers are the multiples of pi.
+std::optional<WrittenUnit> unit_of_pi(std::string_view text) {
+  const std::string name = without_blanks(text);
+  for (const std::string_view pi : {"pi*", "pi", "\xCF\x80*", "\xCF\x80"})
+    if (name == std::string(pi) + "rad") return WrittenUnit{std::string(text), "angle", kPi};
+  return std::nullopt;
+}
+
+// A unit with a factor: "x10 N", "0.01 mm", "1/100 mm", "10^-3 m", "1e3 N". A plain number from 1 on is none:
+// "(500 N)" is the range of a load cell.
 std::optional<WrittenUnit> scaled_unit(std::string_view text) {
   const std::string name = without_blanks(text);
   std::string_view rest = name;
@@ -74,6 +87,14 @@ std::optional<WrittenUnit> scaled_unit(std::string_view text) {
   const auto digits = rest.substr(0, static_cast<std::size_t>(number.ptr - rest.data()));
   is_factor = is_factor || factor < 1.0 || digits.find_first_of("eE") != std::string_view::npos;
   rest.remove_prefix(digits.size());
+  if (factor == 1.0 && rest.starts_with("/")) {
+    double divisor = 0.0;
+    const auto whole = std::from_chars(rest.data() + 1, rest.data() + rest.size(), divisor);
+    if (whole.ec != std::errc() || !(divisor > 1.0)) return std::nullopt;
+    rest.remove_prefix(static_cast<std::size_t>(whole.ptr - rest.data()));
+    factor = 1.0 / divisor;
+    is_factor = true;
+  }
   if (factor == 10.0 && rest.starts_with("^")) {
     int power = 0;
     rest.remove_prefix(rest.starts_with("^+") ? 2 : 1);
@@ -113,15 +134,30 @@ std::optional<WrittenUnit> unit_in_any_case(std::string_view text) {
   const auto lower = lower_case(text);
   for (const auto& spoken : kSpoken)
     if (spoken.lower == lower) return known_unit(spoken.unit);
-  return std::nullopt;
+  // A word spelled out has one meaning in any case; short ones may have two (mN, MN).
+  constexpr std::size_t kShortestWord = 5;
+  const bool is_word = std::all_of(lower.begin(), lower.end(), is_small);
+  return is_word && lower.size() >= kShortestWord ? known_unit(lower) : std::nullopt;
 }
 
-// Unit after the last change from small to capital letters: "angleDeg", "timeMs", "tUs", "TimeUS". Ambiguous
-// names give none: in "torquemNm" the m may belong to the word or to the unit.
+// True if the name begins with a whole word for a quantity and nothing stands behind it: "Force".
+bool is_quantity(std::string_view name) {
+  constexpr std::array<std::string_view, 12> kWords{"force",   "load",         "kraft",    "torque",
+                                                    "moment",  "weight",       "speed",    "angle",
+                                                    "voltage", "displacement", "position", "current"};
+  return std::find(kWords.begin(), kWords.end(), lower_case(name)) != kWords.end();
+}
+
+// Unit after the last change from small to capital letters: "angleDeg", "timeMs", "tUs", "TimeUS". In
+// "torquemNm" and "ForcekN" the small letter belongs to the unit, because a whole word stands before it. In
+// "FzkN" it may belong to either: an unknown unit.
 std::optional<WrittenUnit> unit_behind_a_hump(std::string_view column) {
   for (std::size_t i = column.size(); i-- > 1;) {
     if (!is_capital(column[i]) || !is_small(column[i - 1])) continue;
-    if (known_unit(column.substr(i - 1))) return std::nullopt;
+    if (const auto longer = known_unit(column.substr(i - 1))) {
+      if (is_quantity(column.substr(0, i - 1))) return longer;
+      return WrittenUnit{std::string(column.substr(i - 1)) + " or " + std::string(column.substr(i)), "", 0.0};
+    }
     return unit_in_any_case(column.substr(i));
   }
   return std::nullopt;
@@ -160,14 +196,57 @@ std::optional<WrittenUnit> unit_of_words(std::string_view column) {
   return std::nullopt;
 }
 
-// Text in the last brackets of the name.
-std::optional<std::string_view> bracketed(std::string_view name) {
-  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-    const auto end = name.rfind(close);
-    const auto begin = name.rfind(open, end);
-    if (end == std::string_view::npos || begin == std::string_view::npos || end < begin + 2) continue;
-    return trimmed(name.substr(begin + 1, end - begin - 1));
+// A text of several words in brackets: "kN, filtered" is kN; "N, x1000" and one short or spelled-out word
+// that nobody knows are unknown units; "left" and "raw data" are none.
+std::optional<WrittenUnit> unit_among_words(std::string_view text) {
+  const WrittenUnit unknown{std::string(text), "", 0.0};
+  if (holds_factor(text)) return unknown;
+  const auto words = words_beside_unit(text);
+  if (words.size() == 1) {
+    constexpr std::size_t kLongestSign = 6;
+    const bool is_number = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool is_sign = characters_in(text) <= kLongestSign || begins_with_prefix(text);
+    return is_sign && !is_number && !is_no_unit(text) ? std::optional(unknown) : std::nullopt;
   }
+  // "500 N" is the range of a load cell.
+  if (text.find_first_of("0123456789") != std::string_view::npos) return std::nullopt;
+  std::optional<WrittenUnit> only;
+  for (const auto& word : words) {
+    auto unit = word == "in" && &word == words.data() ? std::nullopt : known_unit(word);
+    if (unit && unit->dimension == "counts") unit.reset();  // "raw data", "Nm, raw"
+    if (unit && only) return unknown;
+    if (unit && unit->text.size() > 1) only = unit;
+    if (unit && unit->text.size() == 1 && &word == words.data()) only = unit;
+  }
+  return only;
+}
+
+// A power of ten behind a name, as "Force*1000", "Time /1000" or "Load x10": an unknown unit. "Force/2" is
+// the second of two.
+std::optional<WrittenUnit> factor_behind(std::string_view column) {
+  for (const std::string_view mark : {"*", "/", "\xC3\x97", " x", " X"}) {
+    const auto at = column.rfind(mark);
+    if (at == std::string_view::npos || at == 0) continue;
+    const auto number = trimmed(column.substr(at + mark.size()));
+    double factor = 0.0;
+    const auto read = std::from_chars(number.data(), number.data() + number.size(), factor);
+    const bool is_whole = read.ec == std::errc() && read.ptr == number.data() + number.size();
+    const double power = is_whole && factor > 0.0 ? std::log10(factor) : 0.0;
+    if ((power != 0.0 && power == std::round(power)) || number.starts_with("10^"))
+      return WrittenUnit{std::string(trimmed(column.substr(at))), "", 0.0};
+  }
+  return std::nullopt;
+}
+
+// A degree sign directly behind a word, a unit in front of "since", and a unit of time behind t: "theta°",
+// "ms since start", "tms".
+std::optional<WrittenUnit> unit_without_mark(std::string_view column) {
+  if (const auto since = column.find(" since "); since != std::string_view::npos)
+    if (const auto unit = known_unit(column.substr(0, since)); unit && unit->dimension == "time") return unit;
+  if (column.starts_with('t') && column.size() > 2)
+    if (const auto unit = known_unit(column.substr(1)); unit && unit->dimension == "time") return unit;
+  for (const std::string_view sign : {"\xC2\xB0", "\xC2\xBA", "\xCB\x9A"})
+    if (column.ends_with(sign) && column.size() > sign.size()) return known_unit(sign);
   return std::nullopt;
 }
 
@@ -186,32 +265,37 @@ WrittenUnit as_wanted(const WrittenUnit& unit, std::string_view wanted) {
 
 }  // namespace
 
-std::optional<WrittenUnit> read_unit(std::string_view text, bool in_brackets) {
-  text = trimmed(text);
-  if (const auto inner = bracketed(text); inner && (text.front() == '[' || text.front() == '('))
+std::optional<WrittenUnit> read_unit(std::string_view written, bool in_brackets) {
+  const std::string plain = in_plain_signs(trimmed(written));
+  const auto text = trimmed(plain);
+  if (const auto inner = text_in_brackets(text); inner && (text.front() == '[' || text.front() == '('))
     return read_unit(*inner, true);
   if (const auto unit = known_unit(text)) return unit;
   if (const auto unit = scaled_unit(text)) return unit;
-  // One short word in brackets is taken as an unknown unit; "(left)", "(raw data)" and "(1)" are not units.
-  const bool worded =
-      text.find(' ') != std::string_view::npos || text.size() > 6 || text.empty() || text == "-";
-  const bool numbered = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (!in_brackets || worded || numbered || is_no_unit(text)) return std::nullopt;
-  return WrittenUnit{std::string(text), "", 0.0};
+  if (const auto unit = unit_of_pi(text)) return unit;
+  if (!in_brackets || text.empty() || text == "-") return std::nullopt;
+  if (const auto unit = unit_in_any_case(text)) return unit;
+  return unit_among_words(text);
 }
 
-std::optional<WrittenUnit> unit_in_name(std::string_view column) {
-  column = trimmed(column);
-  if (const auto inner = bracketed(column)) return read_unit(*inner, true);
+std::optional<WrittenUnit> unit_in_name(std::string_view written) {
+  const std::string plain = in_plain_signs(trimmed(written));
+  const auto column = trimmed(plain);
+  if (const auto inner = text_in_brackets(column)) return read_unit(*inner, true);
   if (stands_alone(column)) return known_unit(column);
   if (const auto unit = unit_in_capitals(column)) return unit;
   if (const auto unit = unit_of_words(column)) return unit;
+  if (const auto unit = unit_without_mark(column)) return unit;
+  if (const auto factor = factor_behind(column)) return factor;
   if (const auto listed = split_unit(column))
     return WrittenUnit{std::string(listed->suffix), std::string(listed->dimension), listed->to_si};
-  for (const std::string_view mark : {" in ", ", ", " / ", "/", "_", ".", " "}) {
+  for (const std::string_view mark :
+       {" in ", " en ", ", ", " / ", " - ", ": ", "/", "|", "\\", "_", ".", " "}) {
     const auto at = column.rfind(mark);
     if (at == std::string_view::npos || at == 0) continue;
-    auto unit = known_unit(column.substr(at + mark.size()));
+    const auto behind = trimmed(column.substr(at + mark.size()));
+    auto unit = known_unit(behind);
+    if (!unit && behind.size() > 1 && mark != ".") unit = unit_in_any_case(behind);
     if (unit) unit->is_certain = unit->text.size() > 1 || (mark != " " && mark != ".");
     if (unit) return unit;
   }

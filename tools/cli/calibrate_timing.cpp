@@ -20,6 +20,7 @@ struct Options {
   int taps = 10;
   std::string foreign;
   std::string foreign_column;
+  std::string foreign_time_unit;
   std::string aligned;
 };
 
@@ -30,14 +31,14 @@ TapSensor sensor_of(const std::string& name) {
 
 calibrate::ForeignTable read_foreign(const Options& options) {
   try {
-    return calibrate::read_foreign_table(options.foreign, options.foreign_column);
+    return calibrate::read_foreign_table(options.foreign, options.foreign_column, options.foreign_time_unit);
   } catch (const calibrate::ForeignTableError& error) {
     throw Failure(ExitCode::usage, error.what(), error.cure);
   }
 }
 
 // Writes the foreign table with its times converted to the recording's clock.
-void write_aligned(const Options& options, const calibrate::ForeignClock& clock) {
+void write_aligned(const Options& options, const calibrate::ForeignClock& clock, double time_scale) {
   const auto table = read_csv(std::filesystem::path(options.foreign));
   std::ofstream out(options.aligned);
   for (std::size_t c = 0; c < table.names.size(); ++c) out << (c ? "," : "") << table.names[c];
@@ -46,8 +47,9 @@ void write_aligned(const Options& options, const calibrate::ForeignClock& clock)
     for (std::size_t c = 0; c < table.names.size(); ++c) {
       const double value = table.columns[c][i];
       out << (c ? "," : "");
+      const double t_s = value * time_scale;
       if (table.names[c] == "t_s")
-        out << fmt::format("{:.6f}", value + clock.offset_s + clock.drift * (value - clock.middle_s));
+        out << fmt::format("{:.6f}", t_s + clock.offset_s + clock.drift * (t_s - clock.middle_s));
       else if (!std::isnan(value))
         out << fmt::format("{}", value);
     }
@@ -66,7 +68,10 @@ std::vector<calibrate::Step> steps(const Options& options) {
                   "name the other computer's table with --foreign");
   calibrate::Step step;
   step.prompt = "stand the foot on something hard, the body held; let every recorder run";
-  step.during = fmt::format("tap along the leg {} times, half a second apart, at once", options.taps);
+  // Even taps may fit another computer's at several shifts.
+  step.during = fmt::format(
+      "tap along the leg {} times, {}, at once", options.taps,
+      options.foreign.empty() ? "half a second apart" : "at uneven intervals of half a second and more");
   step.fixture.taps = options.taps;
   step.seconds = 0.5 * options.taps + 1.0;
   if (!options.foreign.empty()) read_foreign(options);  // reports an unusable table before the person taps
@@ -81,9 +86,11 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
   for (const auto& name : options.sensors)
     if (name != options.reference) setup.others.push_back(sensor_of(name));
   std::vector<std::string> notes;
+  double time_scale = 1.0;
   if (!options.foreign.empty()) {
     setup.others.clear();
     auto table = read_foreign(options);
+    time_scale = table.time_scale;
     setup.foreign = std::move(table.recording);
     notes = std::move(table.notes);
   }
@@ -91,7 +98,7 @@ calibrate::Outcome fit(const std::vector<calibrate::Recording>& recordings, cons
   auto outcome = calibrate_timing(recordings.front(), input.board, setup, clock);
   outcome.notes.insert(outcome.notes.begin(), notes.begin(), notes.end());
   if (clock && outcome.refusals.empty() && !options.aligned.empty()) {
-    write_aligned(options, *clock);
+    write_aligned(options, *clock, time_scale);
     outcome.notes.push_back(options.aligned + " has its rows with times of the recording");
   }
   return outcome;
@@ -114,6 +121,10 @@ Calibration::Actions set_up(Arguments& arguments) {
           "table (.csv) of another computer with the same taps: its clock is found in place of latencies")
       .existing_file();
   arguments.add_option("--foreign-column", options->foreign_column, "of that table, where the taps show");
+  arguments
+      .add_option("--foreign-time-unit", options->foreign_time_unit,
+                  "unit of that table's t_s; default: that of its line of units, else s")
+      .one_of({"s", "ms", "us", "ns", "min"});
   arguments.add_option("--aligned", options->aligned, "writes that table with times of the recording (t_s)");
   return {.steps = [options](const CalibrationInput&) { return steps(*options); },
           .fit = [options](const auto& recordings,

@@ -37,7 +37,8 @@ CanReplaySetup setup_of(Session& session, const ReplayTraceOptions& options) {
   setup.config.motor = robot.motor;
   setup.config.motor_count = robot.robot.motor_count;
   setup.limits = {{robot.limits.motor_reply_misses, robot.supervision.motor_reply_share},
-                  robot.supervision.cycle_gap};
+                  robot.supervision.cycle_gap,
+                  robot.limits.motor_temperature_C};
   setup.bus = options.bus;
   if (!options.interface.empty()) setup.interface = options.interface;
   return setup;
@@ -55,7 +56,7 @@ CanReplayResult run(const ReplayTraceOptions& options, const CanReplaySetup& set
   try {
     auto result = replay_can(options.trace, setup,
                              [&](std::uint64_t frames) { progress.at(static_cast<double>(frames)); });
-    if (result.trace.frames > 0) return result;
+    if (result.trace.frames + result.trace.fd_frames > 0) return result;
   } catch (const CandumpError& error) {
     throw no_trace(options.trace, fmt::format("{}: {}", options.trace, error.what()));
   }

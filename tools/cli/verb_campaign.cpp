@@ -7,9 +7,12 @@
 
 #include "config/files.hpp"
 #include "config/load.hpp"
+#include "firmware/log/log_content.hpp"
+#include "firmware/log/mcap_reader.hpp"
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/campaign_draft.hpp"
 #include "tools/campaign/lost_channels.hpp"
+#include "tools/campaign/repeated_recordings.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/unlisted_recordings.hpp"
 #include "tools/campaign/unstated_unloading.hpp"
@@ -62,9 +65,12 @@ ExitCode check(Session& session, const Options& options) {
   add(missing);
   UnstatedUnloading unloading(campaign);
   LostChannels lost(campaign.plant);
+  RepeatedRecordings repeated;
   Progress progress("reading", static_cast<double>(campaign.trials.size()));
   for (const auto& trial : campaign.trials) {
-    const auto recording = read_trial(campaign, trial);
+    auto recording = read_trial(campaign, trial);
+    if (auto twice = repeated.add(trial, fingerprint_of(recording)))
+      recording.findings.push_back(std::move(*twice));
     add(recording.findings);
     unloading.add(trial, recording);
     lost.add(trial, recording);
@@ -146,8 +152,31 @@ std::vector<std::string> parts_of(const std::string& list) {
   return parts;
 }
 
+// A log is not a table: its topics are not columns.
+void refuse_log(const std::filesystem::path& file) {
+  if (!is_mcap(file)) return;
+  LogContent content;
+  try {
+    content = content_of_log(file);
+  } catch (const mcap::Error&) {
+    content.topics = "records that cannot be read";
+  }
+  const auto table = std::filesystem::path(file).replace_extension(".csv").string();
+  throw Failure(
+      ExitCode::no,
+      fmt::format("{} is an MCAP log with {}, not a table", file.string(),
+                  content.topics.empty() ? "no topic" : content.topics),
+      content.is_of_this_firmware
+          ? fmt::format("a log of this robot needs no import: name it in campaign.toml, [[trial]] file "
+                        "= \"{0}\"; or write it as a table and import that: hop export {1} --output {2}",
+                        file.filename().string(), file.string(), table)
+          : "write the topic as a table with the program that recorded it (PlotJuggler: save as CSV; "
+            "ROS 2: ros2 bag play while ros2 topic echo --csv /TOPIC > FILE.csv), and import that");
+}
+
 ExitCode import_files(Session& session, const Options& options) {
   const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
+  for (const auto& file : files) refuse_log(file);
   const auto folder = options.import_output.empty() ? std::filesystem::absolute(files.front()).parent_path()
                                                     : std::filesystem::path(options.import_output);
   CampaignDraft draft;

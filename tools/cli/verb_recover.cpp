@@ -10,6 +10,7 @@
 #include "firmware/freeze/newest_cycles.hpp"
 #include "firmware/log/candump.hpp"
 #include "firmware/log/log_recovery.hpp"
+#include "firmware/log/mcap_parts.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "tools/cli/freeze_folder.hpp"
 #include "tools/cli/verb.hpp"
@@ -77,6 +78,8 @@ Recovered recover(Session& session, const Options& options, const std::filesyste
   try {
     return is_can ? Recovered{recover_candump(options.log, output), "", {}}
                   : recover_log(session, options, output);
+  } catch (const mcap::SeveralLogs& error) {
+    throw Failure(ExitCode::no, error.what(), error.cure);
   } catch (const mcap::Error& error) {
     throw Failure(ExitCode::no, error.what(),
                   "name a trial's .mcap file, or CAN text (.candump, candump -L)");
@@ -102,6 +105,15 @@ void tell_cycles(Session& session, const Recovered& recovered) {
     session.say("  {} cycles are missing between the log's last and those", *cycles->missing_at_end);
 }
 
+void tell_rest_of_file(Session& session, const LogRecovery& found) {
+  if (found.copies > 1)
+    session.say("  the file holds this log {} times, one behind the other; it is taken once", found.copies);
+  if (found.bytes_behind_end > 0)
+    session.say(
+        "  the log was closed; {} bytes behind its end are {} and left out, nothing of it is missing there",
+        found.bytes_behind_end, found.zeros_behind_end ? "zeros" : "no part of it");
+}
+
 void tell_end(Session& session, const Recovered& recovered) {
   const auto& found = recovered.log;
   if (!found.cut_at) return;
@@ -122,7 +134,8 @@ void tell(Session& session, const Recovered& recovered, const std::string& log, 
   else
     session.say("{}: {} of {} bytes unreadable", log, found.unreadable_bytes, found.file_bytes);
   for (const auto& [name, topic] : found.topics)
-    session.say("  {:<12} {:8} saved, {} lost{}", name, topic.saved, topic.lost,
+    session.say("  {:<12} {:8} saved, {}{} lost{}", name, topic.saved,
+                found.loses_at_least ? "at least " : "", topic.lost,
                 found.end_is_known() ? "" : " before the end");
   if (found.saved() > 0)
     session.say("  saved from {:.3f} s to {:.3f} s (since 1970)", 1e-9 * static_cast<double>(found.first_ns),
@@ -133,6 +146,7 @@ void tell(Session& session, const Recovered& recovered, const std::string& log, 
                 found.lost_in_gaps);
   for (const auto& damage : found.damage)
     session.say("  bytes {} to {}: {}", damage.from_byte, damage.to_byte, damage.what);
+  tell_rest_of_file(session, found);
   tell_end(session, recovered);
   if (!found.whole) session.say("  written to {}", output);
 }
@@ -179,11 +193,13 @@ nlohmann::ordered_json as_json(const Recovered& recovered, const std::string& ou
                                 {"gaps", found.gaps},
                                 {"lost_in_gaps", found.lost_in_gaps},
                                 {"damage", damage},
+                                {"copies", found.copies},
+                                {"bytes_behind_end", found.bytes_behind_end},
                                 {"cut_at_byte", or_null(found.cut_at)}};
   if (!found.whole) result["output"] = output;
   // A cycle has two records: frame and output.
   const std::uint64_t end = found.cycles ? found.cycles->missing_at_end.value_or(0) : 0;
-  if (found.end_is_known()) result["lost"] = found.lost() + 2 * end;
+  if (found.end_is_known() && !found.loses_at_least) result["lost"] = found.lost() + 2 * end;
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "firmware/log/log_content.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/log_report.hpp"
@@ -13,9 +14,30 @@ struct Options {
   std::string output;
 };
 
+// A page without a cycle would show nothing.
+Failure no_cycle(const std::filesystem::path& log) {
+  if (std::filesystem::file_size(log) == 0)
+    return {ExitCode::no, log.string() + " is empty (0 bytes)", "name the .mcap file of a trial"};
+  const auto content = content_of_log(log);
+  if (content.topics.empty())
+    return {ExitCode::no, log.string() + " holds no topic; it may have been cut before its first record",
+            fmt::format("see what can be saved of it: hop recover {}", log.string())};
+  const auto what = fmt::format("{} holds no cycle of a trial, but {}", log.string(), content.topics);
+  if (content.is_of_this_firmware)
+    return {ExitCode::no, what,
+            fmt::format("it may be a recording of hop calibrate: hop export {} writes it as a table",
+                        log.string())};
+  return {
+      ExitCode::no, what,
+      "name the .mcap file of a trial of this robot; of another program's log, write the topic as a table "
+      "with that program and take it with hop campaign import"};
+}
+
 ReportData read(const std::filesystem::path& log) {
   try {
-    return report_data_from_log(log);
+    auto data = report_data_from_log(log);
+    if (data.time_s.empty()) throw no_cycle(log);
+    return data;
   } catch (const mcap::Error& error) {
     throw Failure(ExitCode::usage, error.what(), "name the .mcap file of a trial made by this build");
   }

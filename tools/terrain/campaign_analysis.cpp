@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "tools/campaign/belief_sources.hpp"
+#include "tools/campaign/lost_forces.hpp"
+#include "tools/campaign/repeated_recordings.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper {
@@ -23,8 +26,11 @@ void analyse_by(const TrialAnalysis& analysis, const CampaignTrial& trial, const
 // The bed's numbers are looked for, not used; a bed believed rigid is another analysis.
 bool is_found_here(std::string_view key) { return key.starts_with("terrain.") && key != "terrain.rigid"; }
 
-TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial) {
-  const auto recording = read_trial(campaign, trial, is_found_here);
+// `fingerprint`: of the recording.
+TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial, std::uint64_t& fingerprint) {
+  auto recording = read_trial(campaign, trial, is_found_here);
+  fingerprint = fingerprint_of(recording);
+  leave_out_lost_forces(recording);
   auto result = result_of(trial, recording);
   bool taken = false;
   for (const auto* analysis : all_analyses()) {
@@ -37,6 +43,22 @@ TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial) 
         fmt::format("everything: a trial of kind \"{}\" on plant \"{}\" says nothing about the ground",
                     result.kind, name_of(campaign.plant)));
   return result;
+}
+
+// Takes away the figures of a recording that an earlier trial gave already. A part of a campaign knows only
+// its own trials.
+void count_once(const std::vector<const CampaignTrial*>& trials,
+                const std::vector<std::uint64_t>& fingerprints, std::vector<TrialResult>& results) {
+  RepeatedRecordings repeated;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    auto twice = repeated.add(*trials[i], fingerprints[i]);
+    if (!twice) continue;
+    auto& result = results[i];
+    result.usable = false;
+    result.findings.push_back(std::move(*twice));
+    result.quantities.clear();
+    result.series.clear();
+  }
 }
 
 }  // namespace
@@ -54,16 +76,18 @@ CampaignResults analyse_campaign(const Campaign& campaign, const AnalysisOptions
   for (const auto& trial : campaign.trials)
     if (trial.index % options.parts == options.part - 1) mine.push_back(&trial);
   results.results.resize(mine.size());
+  std::vector<std::uint64_t> fingerprints(mine.size(), 0);
   parallel_for(
       static_cast<long>(mine.size()), options.threads,
       [&](long i) {
         const auto place = static_cast<std::size_t>(i);
-        results.results[place] = analyse_trial(campaign, *mine[place]);
+        results.results[place] = analyse_trial(campaign, *mine[place], fingerprints[place]);
       },
       [&](long done, long total) {
         if (options.progress)
           options.progress(static_cast<std::size_t>(done), static_cast<std::size_t>(total));
       });
+  count_once(mine, fingerprints, results.results);
   return results;
 }
 

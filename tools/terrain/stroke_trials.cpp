@@ -9,6 +9,7 @@
 #include "estimation/motion_smoother.hpp"
 #include "terrain/joint_fit.hpp"
 #include "terrain/series_compliance.hpp"
+#include "tools/campaign/surface_check.hpp"
 #include "tools/experiment/statistics.hpp"
 #include "tools/terrain/strength_curve.hpp"
 #include "tools/terrain/stroke_map.hpp"
@@ -92,7 +93,8 @@ class Stroke {
     std::vector<double> in_air;
     for (std::size_t row = 0; row < in_.rows() && motion_.position_m[row] > 0.0; ++row)
       if (motion_.position_m[row] > kClear_m && !std::isnan(force_N_[row])) in_air.push_back(force_N_[row]);
-    if (in_air.size() < kFewestSamples) return;
+    // Few rows tell an offset only if it is clear beside the noise of a single one.
+    if (in_air.empty() || (in_air.size() < kFewestSamples && untared_force_N(in_) == 0.0)) return;
     const double offset_N = mean(in_air);
     for (double& value : force_N_) value -= offset_N;
     add("force_offset_N", offset_N);

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "tools/campaign/belief_sources.hpp"
+#include "tools/campaign/repeated_recordings.hpp"
 #include "tools/campaign/setup_keys.hpp"
 #include "tools/campaign/unstated_unloading.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
@@ -184,10 +185,13 @@ CampaignInput read_campaign(const Campaign& campaign) {
   for (auto& note : placeholder_notes(campaign, [](std::string_view) { return true; }))
     input.findings.push_back(std::move(note));
   UnstatedUnloading unloading(campaign);
+  RepeatedRecordings repeated;
   std::vector<std::vector<TrialRecording::Channel>> at_one_value;
   std::vector<std::optional<bool>> motor_on;
   for (const auto& described : campaign.trials) {
-    const TrialRecording recording = read_trial(campaign, described);
+    TrialRecording recording = read_trial(campaign, described);
+    if (auto twice = repeated.add(described, fingerprint_of(recording)))
+      recording.findings.push_back(std::move(*twice));
     unloading.add(described, recording);
     for (const auto& finding : recording.findings)  // trials that share a file repeat its findings
       if (std::ranges::find(input.findings, finding) == input.findings.end())

@@ -28,13 +28,12 @@ constexpr const char* kPythonCan = "python3 -m can.logconvert '{0}' '{1}' (Debia
 // MF4 needs python-can 4.2 and asammdf; Debian 12 has version 4.1.
 constexpr const char* kPythonCanOfToday =
     "pip install 'python-can[mf4]', then python3 -m can.logconvert '{0}' '{1}'";
-// Identifiers of more than 11 bits need eight digits; tshark 4 prints them as decimal numbers.
+// Identifiers of more than 11 bits need eight digits; tshark 4 prints them as decimal numbers. A remote frame
+// has no data: its length stands behind R.
 constexpr const char* kCapture =
-    "tshark -r '{0}' -T fields -e frame.time_epoch -e can.flags.xtd -e can.id -e data.data | awk '{{ "
-    "printf($2 ~ "
-    "/^(1|True)$/ ? \"(%.6f) can0 %08X#%s\\n\" : \"(%.6f) can0 %03X#%s\\n\", $1, $3, toupper($4)) }}' > "
-    "'{1}' "
-    "(Debian: tshark)";
+    "tshark -r '{0}' -T fields -e frame.time_epoch -e can.flags.xtd -e can.id -e can.flags.rtr -e can.len -e "
+    "data.data | awk '{{ d = $4 ~ /^(1|True)$/ ? \"R\" $5 : toupper($6); printf($2 ~ /^(1|True)$/ ? \"(%.6f) "
+    "can0 %08X#%s\\n\" : \"(%.6f) can0 %03X#%s\\n\", $1, $3, d) }}' > '{1}' (Debian: tshark)";
 
 constexpr std::array kMagics{
     Magic{"LOGG"sv, "a Vector BLF log", kPythonCan},
@@ -53,17 +52,26 @@ constexpr std::array kMagics{
     Magic{"\xff\xfe"sv, "UTF-16 text, as PowerShell's > writes it", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"},
     Magic{"\xfe\xff"sv, "UTF-16 text", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"}};
 
-// Joins the cells after "[8]". Interface and identifier come before it with every option of candump.
+// Joins the cells after "[8]". Interface and identifier come before it with every option of candump. A remote
+// frame has the words "remote request" in place of data; the length of a CAN FD frame has two digits. Lines
+// about lost frames are kept as comments.
 constexpr const char* kLongCandump =
-    "awk '/^ *\\([0-9.]+\\)/ {{ for (i = 3; i <= NF && $i !~ /^\\[/; ++i); d = \"\"; for (j = i + 1; j <= NF "
-    "&& "
-    "$j ~ /^[0-9A-F][0-9A-F]$/; ++j) d = d $j; print $1, $2, $(i - 1) \"#\" d }}' '{0}' > '{1}'";
+    "awk '/DROPCOUNT/ {{ print \"# \" $0 }} /^ *\\([0-9.]+\\)/ {{ for (i = 3; i <= NF && $i !~ /^\\[/; ++i); "
+    "n = substr($i, 2, length($i) - 2); d = length(n) > 1 ? \"##0\" : \"#\"; if (/remote request/) d = "
+    "\"#R\" "
+    "n; else for (j = i + 1; j <= NF && $j ~ /^[0-9A-F][0-9A-F]$/; ++j) d = d $j; print $1, $2, $(i - 1) d "
+    "}}' "
+    "'{0}' > '{1}'";
+// Between identifier and length stand letters: S standard, E error, R remote, F CAN FD.
 constexpr const char* kPrinted =
-    "awk '/^Timestamp:/ {{ d = \"\"; for (i = 1; $i != \"DL:\"; ++i); for (j = i + 2; j < i + 2 + $(i + 1); "
-    "++j) "
-    "d = d $j; id = toupper($4); if (/ S /) id = substr(\"000\" id, length(id) + 1); print \"(\" $2 \") can0 "
+    "awk '/^Timestamp:/ {{ d = \"#\"; id = toupper($4); for (i = 5; i <= NF && $i != \"DL:\"; ++i) {{ if ($i "
+    "== "
+    "\"R\") d = \"#R\"; if ($i == \"F\") d = \"##0\"; if ($i == \"S\") id = substr(\"000\" id, "
+    "length(id) + 1); if ($i == \"E\") id = \"2\" substr(\"0000000\" id, length(id) + 1) }} n = $(i + 1); if "
+    "(d "
+    "== \"#R\") d = d n; else for (j = i + 2; j < i + 2 + n; ++j) d = d toupper($j); print \"(\" $2 \") can0 "
     "\" "
-    "id \"#\" toupper(d) }}' '{0}' > '{1}'";
+    "id d }}' '{0}' > '{1}'";
 
 struct Pattern {
   const char* regex;  // matches a line

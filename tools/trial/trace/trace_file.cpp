@@ -6,10 +6,38 @@
 #include <string_view>
 #include <system_error>
 
+#include "tools/trial/trace/recorder_loss.hpp"
+
 namespace sandhopper::trace {
 namespace {
 
 constexpr std::size_t kShownCharacters = 60;
+
+std::string shown(std::string_view line) {
+  std::string text;
+  for (const char c : line.substr(0, kShownCharacters)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text;
+}
+
+// Counts a CAN FD frame: "(time) can0 ID##FDATA", F the digit of its flags. Reading the line with a classic
+// frame in its place gives the identifier.
+void count_fd(std::string_view line, Trace& trace) {
+  const auto mark = line.find("##");
+  const auto end = std::min(line.find_first_of(" \t\r", mark), line.size());
+  constexpr std::size_t kMarkAndFlags = 3;
+  ++trace.fd_frames;
+  if (end < mark + kMarkAndFlags) return;
+  try {
+    const auto classic = parse_candump(std::string(line.substr(0, mark + 1)));
+    if (!classic) return;
+    auto& frames = trace.fd_by_id[classic->frame.id];
+    ++frames.count;
+    const auto bytes = static_cast<std::uint8_t>((end - mark - kMarkAndFlags) / 2);
+    frames.longest = std::max(frames.longest, bytes);
+  } catch (const CandumpError&) {
+    // CAN XL, or no identifier: counted without one.
+  }
+}
 
 class TraceBuilder {
  public:
@@ -20,6 +48,7 @@ class TraceBuilder {
     const auto zeros = std::min(line.find_first_not_of('\0'), line.size());
     trace_.zero_bytes += zeros;
     line.remove_prefix(zeros);
+    trace_.digits.see(line);
     try {
       if (const auto parsed = parse_candump(line))
         keep(*parsed, number);
@@ -27,7 +56,7 @@ class TraceBuilder {
         pass_over(line, number);
     } catch (const CandumpError& error) {
       if (line.find("##") != std::string_view::npos)
-        ++trace_.fd_frames;
+        count_fd(line, trace_);
       else
         torn_ = BadLines{1, number, error.what()};
     }
@@ -53,12 +82,18 @@ class TraceBuilder {
   }
 
   void pass_over(std::string_view line, std::uint64_t number) {
-    trace_.lost_by_recorder += frames_lost_in(line);
+    const auto own = frames_lost_in(line);
+    trace_.lost_by_recorder += own;
+    if (const auto loss = own > 0 ? std::nullopt : loss_said_in(line)) {
+      trace_.frames_in_losses += loss->frames;
+      if (trace_.losses.count++ == 0) trace_.losses.first_line = number, trace_.losses.first = shown(line);
+      return;
+    }
     if (line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string_view::npos) return;
     auto& passed = trace_.passed_over;
     if (passed.count++ > 0) return;
     passed.first_line = number;
-    for (const char c : line.substr(0, kShownCharacters)) passed.first += c >= ' ' && c <= '~' ? c : '?';
+    passed.first = shown(line);
   }
 
   // An unreadable last line counts as unreadable only if another line follows.

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/log/candump.hpp"
+#include "tools/trial/trace/time_digits.hpp"
 
 // A recorded CAN trace. It is read completely, so that both directions can be examined together.
 namespace sandhopper::trace {
@@ -33,15 +35,25 @@ struct BadLines {
   std::string first;  // the reader's message
 };
 
+// CAN FD frames of one identifier.
+struct FdFrames {
+  std::uint64_t count = 0;
+  std::uint8_t longest = 0;  // data bytes
+};
+
 struct Trace {
   std::string file;
   std::vector<std::string> interfaces;
   std::vector<Frame> frames;  // in the order of the file
   BadLines unreadable;        // not counting the last line
   bool last_line_torn = false;
-  BadLines passed_over;                // neither frame, comment nor blank; every CAN tool skips them
-  std::uint64_t zero_bytes = 0;        // zero bytes, as after a power cut
-  std::uint64_t fd_frames = 0;         // CAN FD and CAN XL frames, which are skipped
+  BadLines passed_over;          // neither frame, comment nor blank; every CAN tool skips them
+  std::uint64_t zero_bytes = 0;  // zero bytes, as after a power cut
+  std::uint64_t fd_frames = 0;   // CAN FD and CAN XL frames, which are skipped
+  std::map<std::uint32_t, FdFrames> fd_by_id{};  // by identifier with the flags of linux/can.h
+  BadLines losses{};                             // lines in which the recorder reports that it lost frames
+  std::uint64_t frames_in_losses = 0;            // sum of the numbers in these lines
+  TimeDigits digits{};
   std::uint64_t lost_by_recorder = 0;  // according to its own comments, "# 12 frames lost: …"
 };
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "drivers/can/drive_error.hpp"
+#include "tools/trial/trace/misplaced.hpp"
+#include "tools/trial/trace/speed_ratio.hpp"
+#include "tools/trial/trace/temperature.hpp"
 #include "tools/trial/trace/timing.hpp"
 
 namespace sandhopper::trace {
@@ -84,14 +87,22 @@ Findings file_findings(const Trace& trace) {
                      trace.passed_over.count, trace.passed_over.first_line, trace.passed_over.first)});
   if (trace.last_line_torn)
     out.push_back({"torn_end", "the last line is torn, as after a power cut, and left out"});
-  if (trace.fd_frames > 0)
-    out.push_back(
-        {"fd_frames", fmt::format("{} CAN FD frames of other nodes, passed over", trace.fd_frames)});
   if (trace.lost_by_recorder > 0)
     out.push_back({"lost_by_recorder",
                    fmt::format("{} frames were lost while recording, by the trace's own comments",
                                trace.lost_by_recorder),
                    "replies counted as missed may be among them", false});
+  if (trace.losses.count > 0)
+    out.push_back(
+        {"lost_by_recorder",
+         fmt::format(
+             "the recorder lost frames{}; line {}: \"{}\"{}",
+             trace.frames_in_losses > 0 ? fmt::format(", {} by its own words", trace.frames_in_losses) : "",
+             trace.losses.first_line, trace.losses.first,
+             trace.losses.count > 1 ? fmt::format(" and {} more such lines", trace.losses.count - 1) : ""),
+         "record only the motors' identifiers, to a disk that keeps up, with a longer buffer: candump -L -r "
+         "1048576 can0",
+         false});
   return out;
 }
 
@@ -195,6 +206,7 @@ TraceReport examine_trace(Trace trace, const CanConfig& config, const TraceLimit
   TraceReport report;
   auto& frames = trace.frames;
   report.frames = frames.size();
+  report.fd_frames = trace.fd_frames;
   report.bus = count_bus_errors(frames);
   const auto in_file_order = frames;
   put_in_order(frames, examine_clock(in_file_order, INT64_MAX));
@@ -211,12 +223,19 @@ TraceReport examine_trace(Trace trace, const CanConfig& config, const TraceLimit
   count_doubled(frames, roles, report);
 
   report.findings = file_findings(trace);
+  append(report.findings, misplaced_findings(report, trace, config));
+  if (const auto digits = trace.digits.findings(trace.file); !digits.empty()) {
+    append(report.findings, digits);
+    return report;  // without right times nothing can be paired
+  }
   append(report.findings, clock_findings(report.clock, trace, period_ns));
   if (report.clock.differences) return report;  // without times nothing can be paired
   append(report.findings, interface_findings(trace, roles));
   append(report.findings, dialect_findings(report.dialects, config, replies));
   append(report.findings, bus_error_findings(report.bus));
   append(report.findings, drive_error_findings(report, config));
+  append(report.findings, temperature_findings(report, config, limits.motor_temperature_C));
+  append(report.findings, speed_findings(report, config));
   for (std::size_t m = 0; m < static_cast<std::size_t>(config.motor_count); ++m)
     append(report.findings,
            exchange_findings(report.motors[m], config.motor[m], roles.evidence[m], limits.replies));

@@ -19,7 +19,8 @@ namespace sandhopper::trace {
 // Limits from robot.toml against which a trace is checked.
 struct TraceLimits {
   ReplyLimits replies{};
-  int cycle_gap = 20;  // supervision.cycle_gap: number of periods without any frame
+  int cycle_gap = 20;                 // supervision.cycle_gap: number of periods without any frame
+  double motor_temperature_C = 90.0;  // limits.motor_temperature_C
 };
 
 // A reply; the list is in the order of the times.
@@ -32,6 +33,7 @@ struct TimedReading {
 
 struct TraceReport {
   std::uint64_t frames = 0;
+  std::uint64_t fd_frames = 0;
   std::vector<TimedReading> decoded;
   std::array<Exchange, kMotorCount> motors{};
   std::array<std::map<std::uint8_t, std::uint64_t>, kMotorCount> drive_errors{};  // error code and number of
