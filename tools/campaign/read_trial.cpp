@@ -104,12 +104,10 @@ class Reader {
     const bool mapped = mapping != nullptr && find_column(table_, mapping->column) == column;
     const auto scale = unit_scale(i, mapped ? *mapping : ColumnMapping{"t_s", table_.names[i]});
     if (!scale) return;
-    if (!(*scale > 0.0)) {
-      complain_at(mapping->position, FindingKind::set_up, trial_unusable, "t_s",
-                  "the scale of the time must be positive",
-                  "write scale = 1.0 for seconds, 0.001 for milliseconds");
-      return;
-    }
+    if (!(*scale > 0.0))
+      return complain_at(mapping->position, FindingKind::set_up, trial_unusable, "t_s",
+                         "the scale of the time must be positive",
+                         "write scale = 1.0 for seconds, 0.001 for milliseconds");
     used_[i] = true;
     const auto* second =
         mapped && !mapping->plus.column.empty() ? find_column(table_, mapping->plus.column) : nullptr;

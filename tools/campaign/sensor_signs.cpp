@@ -33,6 +33,16 @@ ValueRange range_of(std::span<const double> values) {
   return range;
 }
 
+// Mean of the first three samples: the rest of a body that hangs when the recording begins may be that short.
+double first_mean(std::span<const double> values) {
+  constexpr int kFirst = 3;
+  double sum = 0.0;
+  int count = 0;
+  for (const double value : values)
+    if (!std::isnan(value) && count < kFirst) sum += value, ++count;
+  return count == kFirst ? sum / kFirst : 0.0;
+}
+
 // Means over stretches of a fifth of the samples in which the values stay within a tenth of their whole
 // range. `strict`: they also vary by less than the mean, because a flight between two landings is no rest.
 std::vector<double> means_at_rest(std::span<const double> values, bool strict) {
@@ -86,7 +96,7 @@ class SignChecker {
       return std::ranges::any_of(means_at_rest(recording_.channel(channel), strict),
                                  [&](double mean) { return near(mean, value); });
     };
-    if (any_at(kGravity_mps2, false)) return;
+    if (any_at(kGravity_mps2, false) || near(first_mean(recording_.channel(channel)), kGravity_mps2)) return;
     const auto means = means_at_rest(recording_.channel(channel), true);
     const double most = range_of(recording_.channel(channel)).most();
     const bool beyond = std::ranges::any_of(means, [&](double mean) { return std::abs(mean) > 1.1; });

@@ -7,6 +7,7 @@
 #include "tools/campaign/belief.hpp"
 #include "tools/diagnose/plants/falling_body/falling_body_recording.hpp"
 #include "tools/diagnose/plants/falling_body/falling_simulation.hpp"
+#include "tools/diagnose/plants/falling_body/release_spread.hpp"
 #include "tools/diagnose/plants/inputs.hpp"
 
 namespace sandhopper::diagnose {
@@ -207,14 +208,6 @@ class FallingTrial final : public TrialModel {
     height_sd = std::max(1e-3, (g * fall_s - fall_.start_speed_mps) * fall_.step_s);
   }
 
-  // The part that is a share of the stated speed is 0 for a body that is let go at rest.
-  double release_speed_sd_mps(double told_mps, double unstated_mps) const {
-    if (!fall_.belief.has("spread.release_speed_relative"))
-      return spread_of(fall_.belief, "spread.release_speed_mps", unstated_mps);
-    return std::max(kExact, std::hypot(fall_.belief.value("spread.release_speed_mps"),
-                                       fall_.belief.value("spread.release_speed_relative") * told_mps));
-  }
-
   void place(const Trial& trial, const Samples& heights) {
     const bool told = height_told_;
     double seen = 0.0;
@@ -240,7 +233,8 @@ class FallingTrial final : public TrialModel {
       if (!heights.empty()) fall_.start_height_m = seen;
       height_sd = 1.0;
     }
-    double speed_sd = release_speed_sd_mps(told_mps, told ? kKnownSpeed_mps : kSpeedOfAThrow_mps);
+    double speed_sd =
+        release_speed_sd_mps(fall_.belief, told_mps, told ? kKnownSpeed_mps : kSpeedOfAThrow_mps);
     if (fall_.held && !from_release_) speed_sd = std::min(speed_sd, 0.1);
     if (fall_.impact_s >= 0.0) speed_sd = kUnknownImpact_mps;
     fall_.surface_m = believed_surface_m(fall_.belief).value_or(0.0);

@@ -1,0 +1,18 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "tools/diagnose/plants/inputs.hpp"
+
+namespace sandhopper::diagnose {
+
+// Standard deviation of the release speed of a trial whose set-up states `told_mps`. A part of it may be a
+// share of that speed; then it is 0 for a body that is let go at rest. `unstated_mps`: if [spread] has none.
+inline double release_speed_sd_mps(const Belief& belief, double told_mps, double unstated_mps) {
+  if (!belief.has("spread.release_speed_relative"))
+    return spread_of(belief, "spread.release_speed_mps", unstated_mps);
+  return std::max(kExact, std::hypot(belief.value("spread.release_speed_mps"),
+                                     belief.value("spread.release_speed_relative") * told_mps));
+}
+
+}  // namespace sandhopper::diagnose
