@@ -150,7 +150,6 @@ void ProfileSolver::take_depth_errors(const Information& info) noexcept {
           with[i] * all[j] + all[i] * with[j] +
           surface_m2 * (surface_before[i] * all[j] + all[i] * surface_before[j]) +
           lag_s2 * (lag_before[i] * lag[j] + lag[i] * lag_before[j]);
-  for (std::size_t i = 0; i < errors_.moment.size(); ++i) errors_.moment[i] -= info.of_drag_weights[i];
   for (std::size_t i = 0; i < kTerms; ++i) {
     errors_.of_surface[i] += all[i];
     errors_.of_lag[i] += lag[i];

@@ -17,7 +17,8 @@ constexpr std::array<double, 5> kSmoothness_m{0.003, 0.01, 0.03, 0.1, 0.3};
 constexpr std::array<double, 4> kSpreadFactor{0.5, 1.0, 2.5, 6.0};
 constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
 constexpr int kPasses = 3;
-constexpr double kDegrees = 1.0;  // of freedom of Student's distribution; 1 is Cauchy's
+constexpr double kDegrees = 1.0;  // degrees of freedom of Student's distribution; 1 is the Cauchy
+                                  // distribution
 
 // Cell of the shallowest sample.
 std::size_t first_observed(const ProfileSums& sums) noexcept {
@@ -84,10 +85,6 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
     if (cell.observations == 0.0) continue;
     const double weight = 1.0 / noise_factor_[s], slope = slope_N_per_m_[s];
     const auto product = [&](F a, F b) { return weight * cell.product(a, b); };
-    const auto add = [&](std::size_t i, std::size_t j, double value) {
-      info.normal[i * kTerms + j] += value;
-      info.of_drag_weights[i * kTerms + j] += drag_share_[s] * value;
-    };
     const double sum = product(F::one, F::one);
     info.time_s[s] = product(F::one, F::time) / sum;
     info.change_mps[s] = product(F::one, F::speed) / sum;
@@ -96,7 +93,8 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
     for (const Column& a : own) {
       info.moment[a.term] += a.scale * product(a.feature, F::force);
       info.of_drag[a.term] += a.scale * product(a.feature, F::steady_drag);
-      for (const Column& b : own) add(a.term, b.term, a.scale * b.scale * product(a.feature, b.feature));
+      for (const Column& b : own)
+        info.normal[a.term * kTerms + b.term] += a.scale * b.scale * product(a.feature, b.feature);
       info.of_depth[s][a.term] = a.scale * slope * product(a.feature, F::one);
     }
     for (std::size_t i = 0; i < s; ++i) {
@@ -105,10 +103,11 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
       info.of_depth[s][i] = kProfileCell_m * slope * sum;
       for (const Column& b : own) {
         const double value = kProfileCell_m * b.scale * product(F::one, b.feature);
-        add(i, b.term, value);
-        add(b.term, i, value);
+        info.normal[i * kTerms + b.term] += value;
+        info.normal[b.term * kTerms + i] += value;
       }
-      for (std::size_t j = 0; j < s; ++j) add(i, j, kProfileCell_m * kProfileCell_m * sum);
+      for (std::size_t j = 0; j < s; ++j)
+        info.normal[i * kTerms + j] += kProfileCell_m * kProfileCell_m * sum;
     }
   }
   info.moment[kAddedMass] += sums.response;
@@ -244,7 +243,8 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
     solve_at(g, data, p);
     const Matrix<kTerms> gain = Cholesky<kTerms>(p.gain).inverse();
     Matrix<kTerms> covariance = covariance_of(gain), shared{};
-    add_error(gain, errors_.of_drag, prior_.steady_drag_sd, covariance);
+    add_error(gain, errors_.of_drag, prior_.steady_drag_sd, shared);
+    for (std::size_t i = 0; i < gain.size(); ++i) covariance[i] += shared[i];
     // The moment's covariance holds these two already.
     add_error(gain, errors_.of_surface, prior_.shared_surface_sd_m, shared);
     add_error(gain, errors_.of_lag, prior_.depth_lag_sd_s, shared);
@@ -344,21 +344,15 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
     const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
     stride_misfit_[s] = {n, n * found, n * expected};
     const Misfit all = misfit_with(stride_misfit_[s], s);
-    const double excess_N2 = std::max((all.found_N2 - all.expected_N2) / all.observations, 0.0);
+    const double excess_N2 = (all.found_N2 - all.expected_N2) / all.observations;
     const double limit = chi_squared_quantile(all.observations, k99) / all.observations;
-    unresolved_N2_[s] = all.found_N2 > limit * all.expected_N2 ? excess_N2 : 0.0;
+    unresolved_N2_[s] = all.found_N2 > limit * all.expected_N2 ? std::max(excess_N2, 0.0) : 0.0;
     broken_cells_ += n * found > chi_squared_quantile(n, kAllCells99) * expected;
     // Product of the errors of depth and slope. It is beyond the linear model and common to all samples of a
     // cell.
     const double slope_sd = tangent_N_per_m(s).sd;
     const double product = n * depth_variance * slope_sd * slope_sd;
-    using F = ProfileFeature;
-    const auto& cell = sums.cells[s];
-    const double drag = n * prior_.steady_drag_sd * prior_.steady_drag_sd *
-                        cell.product(F::steady_drag, F::steady_drag) / cell.product(F::one, F::one);
-    const double variance_N2 = expected + unresolved_N2_[s] + product + drag;
-    noise_factor_[s] = variance_N2 / own;
-    drag_share_[s] = drag / variance_N2;
+    noise_factor_[s] = (expected + unresolved_N2_[s] + product) / own;
   }
 }
 
@@ -373,7 +367,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   begin_depth_errors(stride > 1);
   if (stride <= 1) ++places_;
   noise_factor_.fill(1.0);
-  stride_misfit_ = {}, drag_share_ = {};
+  stride_misfit_ = {};
   // Restart expectation maximisation only below the depth of the previous strides. If it continued everywhere
   // from stride to stride, it would narrow the band without new measurements.
   first_cell_ = stride > 1 ? first_observed(sums) : 0;

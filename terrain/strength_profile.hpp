@@ -42,9 +42,6 @@
 // of a curve, because the foot slows down with depth. In several strides the errors of the depth have the
 // form of a drag: a foot that is deeper than estimated is slower than others at the same estimated depth. So
 // lambda is not fitted either. It keeps its prior, zero for the believed bed, and is the same in all strides.
-// Its weights count it all the same: a cell whose foot was fast has the drag as a further noise, so that slow
-// strides count for more. With W those weights, V the drag's part of the noise in each cell, and X the cells'
-// columns, the covariance of the moments is that of the noise alone, N - X^T W V W X, and lambda's own part.
 // The lag, and a part of d, are the same on all places: contact is detected later on soft ground and at low
 // speed. No number of strides averages them out, so S holds their products between strides.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
@@ -162,8 +159,8 @@ class ProfileSolver {
   ContactDepth contact_depth(double speed_mps, double added_mass_kg_per_m) const noexcept;
 
   // Force at a depth; NaN beyond the last cell. `narrowable` leaves out of the band the curve's variation
-  // within a cell, such as that of a crust or a sharp boundary, and the errors of the depth that all strides
-  // share: no stride narrows them.
+  // within a cell, such as that of a crust or a sharp boundary, and the errors that all strides share: no
+  // stride narrows them.
   enum class Band { whole, narrowable };
   ProfilePoint force_N(double depth_m, Band band = Band::whole) const noexcept;
 
@@ -176,7 +173,6 @@ class ProfileSolver {
     Vector<kProfileCells> depth_moment{};
     Vector<kProfileCells> time_s{}, change_mps{};  // mean time and change of speed since contact
     Vector<kTerms> of_drag{};                      // change of the moment for a unit of lambda
-    Matrix<kTerms> of_drag_weights{};  // part of the normal equations that counts the drag as noise
   };
   struct Posterior {
     Vector<kTerms> mean{};
@@ -246,7 +242,6 @@ class ProfileSolver {
   std::array<double, kProfileCells> slope_N_per_m_{};      // tangent stiffness of the previous posterior
   std::array<double, kProfileCells> noise_factor_{};       // variance of a cell's samples relative to that of
                                                            // their weights
-  std::array<double, kProfileCells> drag_share_{};         // share of the drag in that variance
   std::array<double, kProfileCells> unresolved_N2_{};  // variance that is attributed to the curve within a
                                                        // cell
   std::array<Misfit, kProfileCells> misfit_{}, stride_misfit_{};  // of the previous strides, of this one

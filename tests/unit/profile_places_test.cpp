@@ -100,21 +100,6 @@ TEST(StrengthProfile, DragThatStaysAtDepthIsNoStrength) {
   EXPECT_GE(held(solved_with(sd, kFast_mps, 1)), 0.9);
 }
 
-// A slow stride is free of the drag. After a fast one, it counts for so much more that the band is hardly
-// wider than that of the slow one by itself.
-TEST(StrengthProfile, ASlowStrideFreesTheBandOfTheDrag) {
-  constexpr double kDepth_m = 0.020;
-  const auto fast = sums_of(line_N, {.speed_mps = 1.4, .seed = 1});
-  const auto slow = sums_of(line_N, {.speed_mps = 0.3, .seed = 2});
-  ProfileSolver both{StiffnessConfig{}}, alone{StiffnessConfig{}};
-  alone.add(slow, 1);
-  both.add(fast, 1);
-  const double before_N = both.force_N(kDepth_m).sd;
-  both.add(slow, ProfileSolver::kFreshGround);
-  EXPECT_GT(before_N, 1.5 * alone.force_N(kDepth_m).sd);
-  EXPECT_LT(both.force_N(kDepth_m).sd, 1.1 * alone.force_N(kDepth_m).sd);
-}
-
 // However many places there are, the band stays as wide as the error that they share. No stride narrows this
 // part, so the planner's band leaves it out.
 TEST(StrengthProfile, TheErrorThatAllPlacesShareDoesNotAverageOut) {
