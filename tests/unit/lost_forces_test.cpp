@@ -105,7 +105,7 @@ TEST(LostForces, TerrainDoesNotUseThem) {
 
 class Repeated : public testing::Test {
  protected:
-  // What hop terrain finds in a campaign of these two files, and the number of usable trials.
+  // Findings of hop terrain in a campaign of these two files, and the number of usable trials.
   std::pair<std::string, std::size_t> found(const std::string& a, const std::string& b,
                                             const std::string& setup_of_b = "") {
     folder_.write("a.csv", a).write("b.csv", b);

@@ -59,7 +59,7 @@ class Drafter {
     if (table_.names.empty()) throw std::runtime_error(files_.front().string() + " holds no table");
     look_again(format);
   }
-  // What only the text shows: units outside the names, and a sign that may divide thousands.
+  // Takes what only the text shows: units outside the names, and a sign that may divide thousands.
   void look_again(const CsvFormat& format) {
     std::ifstream in(files_.front(), std::ios::binary);
     const auto text = look_at_text(in, table_, format, {});
@@ -99,8 +99,8 @@ class Drafter {
     if (auto guess = guess_torque_by_current(table_.names, units, guesses_)) guesses_.push_back(*guess);
   }
 
-  // Of three axes the one that reads most: gravity, a drop and a push show along one of them. A length has no
-  // zero of its own, so there the first that fits stays.
+  // Takes the one of three axes that reads most: gravity, a drop and a push show along one of them. A length
+  // has no zero of its own, so there the first that fits stays.
   void choose_axis(ColumnGuess& guess) {
     auto axes = axes_of(table_, guess.column);
     if (!axes.found()) return;

@@ -5,8 +5,8 @@
 
 namespace sandhopper {
 
-// What no falling body does, whatever it is: fall evenly and much slower than gravity (a stretched time), be
-// braked by air with a drag coefficient that no body has (mass, area or density in another unit), or fall
+// Doubts a fall that no body makes: one that is even and much slower than gravity (a stretched time), one
+// that air brakes with a drag coefficient that no body has (mass, area or density in another unit), and one
 // from a height that is a hundred or a thousand times the recorded one. Speeds come from `height_m`.
 void check_fall_limits(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                        const RecordingPlaces& places);

@@ -105,7 +105,7 @@ ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& fold
   return ExitCode::no;
 }
 
-// How well each size of the port error explains a campaign in which nothing is missing.
+// Prints the log evidence of a campaign in which nothing is missing, for each size of the port error.
 ExitCode tell_port_errors(Session& session, const sandhopper::diagnose::Recordings& recordings,
                           const std::vector<double>& sizes, Progress& progress) {
   const auto evidence = sandhopper::diagnose::port_error_evidence(

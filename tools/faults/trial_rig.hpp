@@ -27,7 +27,7 @@ class TrialRig {
   std::uint64_t turns() const { return turns_; }
   // Present time of the world; it continues over sessions.
   double time_s() const;
-  // Of the last cycle that ran, also when that was in an earlier session.
+  // The last cycle's, also if it ran in an earlier session.
   const StepOutput& output() const { return output_; }
   const SensorFrame& frame() const;
   // Events of the last cycle.
