@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/integrated_twice.hpp"
 
 namespace sandhopper {
 namespace {
@@ -16,46 +16,26 @@ constexpr std::string_view kAcceleration = "accel_mps2", kFallingHeight = "heigh
 constexpr std::size_t kFewestOfFall = 10;
 constexpr double kTimesBetter = 10.0;
 
-// Rows with a height, and the acceleration integrated twice up to there.
-struct Flight {
-  std::vector<double> t_s, height_m, way_m;
-};
-
-Flight flight_of(const TrialRecording& recording) {
-  const auto accel = recording.channel(kAcceleration), height = recording.channel(kFallingHeight);
-  Flight flight;
-  double speed = 0.0, way = 0.0, last_t = NAN, last_a = NAN;
-  for (std::size_t row = 0; row < height.size(); ++row) {
-    if (!std::isnan(accel[row])) {
-      if (!std::isnan(last_t)) {
-        const double dt = recording.t_s[row] - last_t, mean = 0.5 * (accel[row] + last_a);
-        way += speed * dt + 0.5 * mean * dt * dt;
-        speed += mean * dt;
-      }
-      last_t = recording.t_s[row], last_a = accel[row];
-    }
-    if (std::isnan(height[row]) || std::isnan(accel[row])) continue;
-    flight.t_s.push_back(recording.t_s[row]);
-    flight.height_m.push_back(height[row]);
-    flight.way_m.push_back(way);
-  }
-  if (flight.height_m.empty()) return flight;
+// The rows of the fall.
+IntegratedTwice flight_of(const TrialRecording& recording) {
+  auto flight = integrated_twice(recording, kAcceleration, kFallingHeight);
+  if (flight.t_s.empty()) return flight;
   // Up to nine tenths of the rows before it comes near the lowest height: then it lands.
-  const auto [low, high] = std::ranges::minmax(flight.height_m);
+  const auto [low, high] = std::ranges::minmax(flight.position_m);
   const double near = low + 0.05 * (high - low);
-  const auto landing = std::ranges::find_if(flight.height_m, [&](double h) { return h < near; });
-  const auto rows = static_cast<std::size_t>((landing - flight.height_m.begin()) * 9 / 10);
-  flight.t_s.resize(rows), flight.height_m.resize(rows), flight.way_m.resize(rows);
+  const auto landing = std::ranges::find_if(flight.position_m, [&](double h) { return h < near; });
+  const auto rows = static_cast<std::size_t>((landing - flight.position_m.begin()) * 9 / 10);
+  flight.t_s.resize(rows), flight.position_m.resize(rows), flight.way_m.resize(rows);
   return flight;
 }
 
 // Root mean square of h - sign way + 1/2 g t^2 about its best straight line: start and speed are free.
-double misfit(const Flight& flight, double sign, double gravity) {
+double misfit(const IntegratedTwice& flight, double sign, double gravity) {
   const auto n = static_cast<double>(flight.t_s.size());
   double st = 0.0, stt = 0.0, sy = 0.0, sty = 0.0, syy = 0.0;
   for (std::size_t i = 0; i < flight.t_s.size(); ++i) {
     const double t = flight.t_s[i] - flight.t_s.front();
-    const double y = flight.height_m[i] - sign * flight.way_m[i] + 0.5 * gravity * t * t;
+    const double y = flight.position_m[i] - sign * flight.way_m[i] + 0.5 * gravity * t * t;
     st += t, stt += t * t, sy += y, sty += t * y, syy += y * y;
   }
   const double stt0 = stt - st * st / n, sty0 = sty - st * sy / n, syy0 = syy - sy * sy / n;

@@ -5,10 +5,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "estimation/leg.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/integrated_twice.hpp"
 
 namespace sandhopper {
 namespace {
@@ -16,30 +16,16 @@ namespace {
 // Offset of the acceleration, from the position. Empty if an offset does not explain the difference, as where
 // the accelerometer was saturated: then more than a tenth of the offset's own effect is left.
 std::optional<double> offset_mps2(const TrialRecording& recording) {
-  const auto z = recording.channel("foot_z_m"), a = recording.channel("foot_accel_mps2");
-  std::vector<double> time_s, moved_m;
-  double last_s = 0.0, last_mps2 = 0.0, speed_mps = 0.0, way_m = 0.0;
-  bool began = false;
-  for (std::size_t i = 0; i < recording.rows(); ++i) {
-    if (std::isnan(a[i])) continue;
-    const double step_s = began ? recording.t_s[i] - last_s : 0.0;
-    way_m += step_s * (speed_mps + step_s * (last_mps2 / 3.0 + a[i] / 6.0));
-    speed_mps += 0.5 * step_s * (last_mps2 + a[i]);
-    last_s = recording.t_s[i];
-    last_mps2 = a[i];
-    began = true;
-    if (std::isnan(z[i])) continue;
-    time_s.push_back(last_s);
-    moved_m.push_back(z[i] - way_m);
-  }
-  if (time_s.size() < 10) return std::nullopt;
+  const auto rows = integrated_twice(recording, "foot_accel_mps2", "foot_z_m");
+  if (rows.t_s.size() < 10) return std::nullopt;
   constexpr double kLeft = 0.1;
-  Eigen::MatrixXd terms(static_cast<Eigen::Index>(time_s.size()), 3);
+  Eigen::MatrixXd terms(static_cast<Eigen::Index>(rows.t_s.size()), 3);
   Eigen::VectorXd moved(terms.rows());
   for (Eigen::Index i = 0; i < terms.rows(); ++i) {
-    const double t = time_s[static_cast<std::size_t>(i)] - time_s.front();
+    const auto row = static_cast<std::size_t>(i);
+    const double t = rows.t_s[row] - rows.t_s.front();
     terms.row(i) << 1.0, t, -0.5 * t * t;
-    moved[i] = moved_m[static_cast<std::size_t>(i)];
+    moved[i] = rows.position_m[row] - rows.way_m[row];
   }
   const Eigen::VectorXd all = terms.colPivHouseholderQr().solve(moved);
   const Eigen::MatrixXd line = terms.leftCols(2);
