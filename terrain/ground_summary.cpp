@@ -18,7 +18,7 @@ constexpr double kPinned = 1e12;
 constexpr double kFree = 1e-9;
 constexpr std::size_t kAt = kShape;  // column of the intercept; added mass and force scale follow
 
-using Direction = std::array<double, ProfileSolver::kShared>;
+using Direction = std::array<double, ProfileSolver::kTerms>;
 
 // Least squares over a few directions of the profile, starting from `offset`.
 struct Model {
@@ -47,7 +47,7 @@ struct Fit {
 };
 
 Fit solve(const ProfileSolver& solver, const Model& model) {
-  constexpr std::size_t n = ProfileSolver::kShared;
+  constexpr std::size_t n = ProfileSolver::kTerms;
   const auto& k = solver.normal();
   Direction left = solver.moment();
   for (std::size_t i = 0; i < n; ++i)
@@ -56,8 +56,11 @@ Fit solve(const ProfileSolver& solver, const Model& model) {
   std::array<double, kColumns> moment{};
   for (std::size_t a = 0; a < kColumns; ++a) {
     Direction product{};
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) product[i] += k[i * n + j] * model.direction[a][j];
+    for (std::size_t j = 0; j < n; ++j) {  // k is symmetric
+      const double share = model.direction[a][j];
+      if (share == 0.0) continue;
+      for (std::size_t i = 0; i < n; ++i) product[i] += share * k[j * n + i];
+    }
     for (std::size_t b = 0; b < kColumns; ++b)
       for (std::size_t i = 0; i < n; ++i) normal[b * kColumns + a] += model.direction[b][i] * product[i];
     for (std::size_t i = 0; i < n; ++i) moment[a] += model.direction[a][i] * left[i];

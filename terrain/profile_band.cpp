@@ -47,7 +47,7 @@ ProfilePoint ProfileSolver::force_N(double depth_m, Band band) const noexcept {
   for (std::size_t j = 0; j < kTerms; ++j) {
     point.value += x[j] * posterior_.mean[j];
     double row = 0.0, follows = 0.0;
-    for (std::size_t i = 0; i < kShared; ++i) {
+    for (std::size_t i = 0; i < kTerms; ++i) {
       row += x[i] * posterior_.covariance[i * kTerms + j];
       follows += x[i] * posterior_.gain[i * kTerms + j];
     }
@@ -62,8 +62,8 @@ ProfilePoint ProfileSolver::force_N(double depth_m, Band band) const noexcept {
   const double variance_N2 = std::max(variance + fluctuation_N2, 0.0);
   if (band == Band::narrowable) {
     double shared_N2 = 0.0;
-    for (std::size_t i = 0; i < kShared; ++i)
-      for (std::size_t j = 0; j < kShared; ++j) shared_N2 += x[i] * posterior_.shared[i * kTerms + j] * x[j];
+    for (std::size_t i = 0; i < kTerms; ++i)
+      for (std::size_t j = 0; j < kTerms; ++j) shared_N2 += x[i] * posterior_.shared[i * kTerms + j] * x[j];
     point.sd = std::sqrt(std::max(variance_N2 - shared_N2, 0.0));
     return point;
   }
@@ -142,7 +142,7 @@ void ProfileSolver::report(const ProfileSums& sums, std::uint32_t stride) noexce
   p.added_mass_factor_sd = std::sqrt(std::max(posterior_.covariance[kAddedMass * kTerms + kAddedMass], 0.0));
   p.smoothness_m = posterior_.smoothness_m;
   p.spread_relative = posterior_.spread;
-  p.joint_friction_N = m[kFriction];
+  p.joint_friction_N = friction_N_;
   p.chi_squared = observations > 0.0 ? residual / observations : 0.0;
 }
 

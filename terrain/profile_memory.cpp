@@ -1,22 +1,39 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
-#include "terrain/small_gaussian.hpp"
 #include "terrain/strength_profile.hpp"
 
 // Information kept from one stride of a trial to the next, and the errors of the depth.
 namespace sandhopper {
 
-void ProfileSolver::add_stride_prior(Information& info) const noexcept {
-  const double friction_sd = config_.joint.joint_friction_sd_N;
-  info.normal[kFriction * kTerms + kFriction] += 1.0 / (friction_sd * friction_sd);
+void ProfileSolver::add_kept(Information& info) const noexcept {
   for (std::size_t i = 0; i < info.normal.size(); ++i) info.normal[i] += kept_normal_[i];
   for (std::size_t i = 0; i < kTerms; ++i) info.moment[i] += kept_moment_[i];
 }
 
+// The friction belongs to this stride alone (Schur complement). Every change of a moment changes in the same
+// way.
+void ProfileSolver::integrate_friction(Information& info) const noexcept {
+  const double friction_sd = config_.joint.joint_friction_sd_N;
+  info.friction_normal += 1.0 / (friction_sd * friction_sd);
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    const double gain = info.with_friction[i] / info.friction_normal;
+    info.moment[i] -= gain * info.friction_moment;
+    for (std::size_t j = 0; j < kTerms; ++j) info.normal[i * kTerms + j] -= gain * info.with_friction[j];
+    for (std::size_t s = 0; s < kProfileCells; ++s) info.of_depth[s][i] -= gain * info.friction_of_depth[s];
+  }
+}
+
+void ProfileSolver::take_friction(const Information& info) noexcept {
+  double moment = info.friction_moment;
+  for (std::size_t i = 0; i < kTerms; ++i) moment -= info.with_friction[i] * posterior_.mean[i];
+  friction_N_ = moment / info.friction_normal;
+}
+
 // Change of the moment if every sample of a cell increases by one newton.
-void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
+void ProfileSolver::take_responses(const ProfileSums& sums, const Information& info) noexcept {
   using F = ProfileFeature;
   for (std::size_t s = 0; s < kProfileCells; ++s) {
     auto& response = response_[s];
@@ -27,7 +44,9 @@ void ProfileSolver::take_responses(const ProfileSums& sums) noexcept {
     response[kAddedMass] += sum(F::added_mass);
     response[kScale] += sum(F::motor);
     response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
-    response[kFriction] += sum(F::friction);
+    response[kSteadyDrag] += sum(F::steady_drag);
+    const double friction = sum(F::friction) / info.friction_normal;
+    for (std::size_t i = 0; i < kTerms; ++i) response[i] -= friction * info.with_friction[i];
   }
 }
 
@@ -46,19 +65,24 @@ void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
 // The curve near the surface is taken as a line in each cell.
 ProfileSolver::ContactDepth ProfileSolver::contact_depth(double speed_mps,
                                                          double added_mass_kg_per_m) const noexcept {
-  constexpr std::size_t kDeepest = 2;  // cells
+  constexpr std::size_t kDeepest = std::tuple_size_v<decltype(ContactDepth::of_slope)>;  // cells
   const double surface_m2 =
       prior_.surface_sd_m * prior_.surface_sd_m + prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
-  if (!(speed_mps > 0.0)) return {0.0, surface_m2};
+  if (!(speed_mps > 0.0)) return {0.0, surface_m2, {}};
   const double c = std::max(posterior_.mean[kAddedMass], 0.0);
   double missing_N =
       config_.contact_force_N - prior_.contact_early_N - c * added_mass_kg_per_m * speed_mps * speed_mps;
-  ContactDepth depth{0.0, surface_m2};
+  ContactDepth depth{0.0, surface_m2, {}};
   double force_sd_m = 0.0;
   for (std::size_t j = 0; j < kDeepest && missing_N > 0.0; ++j) {
     const double cell_N = kProfileCell_m * slope_N_per_m_[j];
     const double share = cell_N > missing_N ? missing_N / cell_N : 1.0;
     depth.mean_m += share * kProfileCell_m;
+    if (cell_N > missing_N) {
+      const double per_slope = -1.0 / slope_N_per_m_[j];
+      for (std::size_t i = 0; i < j; ++i) depth.of_slope[i] = per_slope * kProfileCell_m;
+      depth.of_slope[j] = per_slope * share * kProfileCell_m;
+    }
     force_sd_m = std::min(prior_.contact_force_sd_N * kProfileCell_m / std::max(cell_N, 1e-9), depth.mean_m);
     missing_N -= cell_N;
   }
@@ -71,19 +95,55 @@ ProfileSolver::ContactDepth ProfileSolver::contact_depth(double speed_mps,
 void ProfileSolver::expect_contact(const ProfileSums& sums) noexcept {
   const auto depth = contact_depth(sums.contact_mps, sums.contact_added_mass_kg_per_m);
   begins_m_ = depth.mean_m;
+  begins_of_ = {};
+  for (std::size_t j = 0; j < depth.of_slope.size(); ++j) {
+    begins_of_[j] = depth.of_slope[j];
+    begins_of_[kIntercept] += depth.of_slope[j] * intercept_N_per_m_[j];
+  }
   kept_errors_.variance_m2 = depth.variance_m2;
+}
+
+// The mean of D is that of the previous posterior. To first order, a sample is F(z + D) with D plus the
+// terms' change times `begins_of_`, so every column of the fit has that part of the depth's column.
+void ProfileSolver::depend_on_contact(Information& info) const noexcept {
+  Vector<kTerms> of_begin{};
+  double normal = 0.0, moment = 0.0, friction = 0.0, previous_m = 0.0;
+  for (std::size_t s = 0; s < kProfileCells; ++s) {
+    normal += info.depth_normal[s];
+    moment += info.depth_moment[s];
+    friction += info.friction_of_depth[s];
+    for (std::size_t i = 0; i < kTerms; ++i) of_begin[i] += info.of_depth[s][i];
+  }
+  const auto& of = begins_of_;
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    previous_m += of[i] * posterior_.mean[i];
+    info.moment[i] += of[i] * moment;
+    info.with_friction[i] += of[i] * friction;
+    for (std::size_t j = 0; j < kTerms; ++j)
+      info.normal[i * kTerms + j] += of_begin[i] * of[j] + of[i] * (of_begin[j] + normal * of[j]);
+    for (std::size_t s = 0; s < kProfileCells; ++s) info.of_depth[s][i] += of[i] * info.depth_normal[s];
+  }
+  Vector<kProfileCells> mean_m;
+  mean_m.fill(-previous_m);
+  subtract_depth_error(info, mean_m);
 }
 
 double ProfileSolver::mean_depth_error_m(double change_mps) const noexcept {
   return begins_m_ + prior_.depth_lag_s * change_mps;
 }
 
-void ProfileSolver::subtract_mean_depth_error(Information& info) const noexcept {
+void ProfileSolver::subtract_depth_error(Information& info, const Vector<kProfileCells>& mean_m) noexcept {
   for (std::size_t s = 0; s < kProfileCells; ++s) {
-    const double mean_m = mean_depth_error_m(info.change_mps[s]);
-    for (std::size_t i = 0; i < kTerms; ++i) info.moment[i] -= mean_m * info.of_depth[s][i];
-    info.depth_moment[s] -= mean_m * info.depth_normal[s];
+    for (std::size_t i = 0; i < kTerms; ++i) info.moment[i] -= mean_m[s] * info.of_depth[s][i];
+    info.depth_moment[s] -= mean_m[s] * info.depth_normal[s];
+    info.friction_moment -= mean_m[s] * info.friction_of_depth[s];
   }
+}
+
+void ProfileSolver::subtract_mean_depth_error(Information& info) const noexcept {
+  Vector<kProfileCells> mean_m;
+  for (std::size_t s = 0; s < kProfileCells; ++s) mean_m[s] = mean_depth_error_m(info.change_mps[s]);
+  subtract_depth_error(info, mean_m);
 }
 
 // Covariance of D at two times, each with the change of speed since contact.
@@ -153,7 +213,6 @@ void ProfileSolver::take_depth_errors(const Information& info) noexcept {
   for (std::size_t i = 0; i < kTerms; ++i) {
     errors_.of_surface[i] += all[i];
     errors_.of_lag[i] += lag[i];
-    errors_.of_drag[i] += info.of_drag[i];
   }
 }
 
@@ -169,77 +228,11 @@ void ProfileSolver::end_depth_errors(const Information& info, const ProfileSums&
   errors_.variance_m2 = depth_covariance_m2(t, v, t, v);
 }
 
-// Keeps the information and integrates out the friction, which belongs to this stride alone (Schur
-// complement). Every change of a moment changes in the same way.
 void ProfileSolver::keep(const Information& info) noexcept {
-  Vector<kTerms> gain{};
-  for (std::size_t i = 0; i < kShared; ++i)
-    gain[i] = info.normal[i * kTerms + kFriction] / info.normal[kFriction * kTerms + kFriction];
-  const auto reduce = [&](Vector<kTerms>& change) {
-    for (std::size_t i = 0; i < kShared; ++i) change[i] -= gain[i] * change[kFriction];
-    change[kFriction] = 0.0;
-  };
+  kept_normal_ = info.normal;
   kept_moment_ = info.moment;
-  reduce(kept_moment_);
-  for (std::size_t i = 0; i < kTerms; ++i)
-    for (std::size_t j = 0; j < kTerms; ++j)
-      kept_normal_[i * kTerms + j] =
-          i == kFriction || j == kFriction
-              ? 0.0
-              : info.normal[i * kTerms + j] - gain[i] * info.normal[kFriction * kTerms + j];
-  for (Vector<kTerms>& response : response_) reduce(response);
-  for (auto* change : {&errors_.with_depth, &errors_.of_surface, &errors_.of_lag, &errors_.of_drag})
-    reduce(*change);
-  for (int side = 0; side < 2; ++side)  // rows, then, after the transposition, columns
-    for (std::size_t i = 0; i < kTerms; ++i) {
-      Vector<kTerms> row;
-      for (std::size_t j = 0; j < kTerms; ++j) row[j] = errors_.moment[i * kTerms + j];
-      reduce(row);
-      for (std::size_t j = 0; j < kTerms; ++j) errors_.moment[i * kTerms + j] = row[j];
-      if (i + 1 < kTerms) continue;
-      for (std::size_t a = 0; a < kTerms; ++a)
-        for (std::size_t b = 0; b < a; ++b)
-          std::swap(errors_.moment[a * kTerms + b], errors_.moment[b * kTerms + a]);
-    }
   kept_errors_ = errors_;
-}
-
-// Information of a stride on kappa, c, e and b, without their prior, with D of each cell and f integrated
-// out. That a stride begins with the depth error of its crater is left out.
-void ProfileSolver::share(const Information& own) noexcept {
-  constexpr std::size_t kOwn = kProfileCells + 1;
-  constexpr double kRounding_m2 = 1e-10;  // keeps the covariance of D positive definite
-  const double friction_sd = config_.joint.joint_friction_sd_N;
-  auto covariance = depth_covariance(own);
-  for (std::size_t s = 0; s < kProfileCells; ++s) covariance[s * kProfileCells + s] += kRounding_m2;
-  const auto precision = Cholesky<kProfileCells>(covariance).inverse();
-  Matrix<kOwn> normal{};
-  Vector<kOwn> moment{};
-  for (std::size_t s = 0; s < kProfileCells; ++s) {
-    for (std::size_t t = 0; t < kProfileCells; ++t) normal[s * kOwn + t] = precision[s * kProfileCells + t];
-    normal[s * kOwn + s] += own.depth_normal[s];
-    normal[s * kOwn + kProfileCells] = normal[kProfileCells * kOwn + s] = own.of_depth[s][kFriction];
-    moment[s] = own.depth_moment[s];
-  }
-  normal[kOwn * kOwn - 1] = own.normal[kFriction * kTerms + kFriction] + 1.0 / (friction_sd * friction_sd);
-  moment[kProfileCells] = own.moment[kFriction];
-  const Cholesky<kOwn> root(normal);
-  const auto row = [&](std::size_t term) {
-    Vector<kOwn> values;
-    for (std::size_t s = 0; s < kProfileCells; ++s) values[s] = own.of_depth[s][term];
-    values[kProfileCells] = own.normal[term * kTerms + kFriction];
-    return values;
-  };
-  for (std::size_t i = 0; i < kShared; ++i) {
-    const auto gain = root.solve(row(i));
-    shared_moment_[i] += own.moment[i];
-    for (std::size_t a = 0; a < kOwn; ++a) shared_moment_[i] -= gain[a] * moment[a];
-    for (std::size_t j = 0; j < kShared; ++j) {
-      double& value = shared_normal_[i * kShared + j];
-      value += own.normal[i * kTerms + j] - gain[kProfileCells] * own.normal[j * kTerms + kFriction];
-      for (std::size_t s = 0; s < kProfileCells; ++s) value -= gain[s] * own.of_depth[s][j];
-    }
-  }
+  kept_between_ = between_;
 }
 
 }  // namespace sandhopper

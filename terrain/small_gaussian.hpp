@@ -8,53 +8,61 @@
 // processor.
 namespace sandhopper {
 
-// M = L L^T, row by row. A pivot that is not positive because of rounding is replaced by a tiny one.
+// M = U^T U. Every element is the same sum in the same order as row by row, but no addition waits for the one
+// before. A pivot that is not positive because of rounding is replaced by a tiny one.
 template <std::size_t N>
 class Cholesky {
  public:
-  explicit Cholesky(const std::array<double, N * N>& matrix) noexcept {
-    for (std::size_t i = 0; i < N; ++i)
-      for (std::size_t j = 0; j <= i; ++j) {
-        double sum = matrix[i * N + j];
-        for (std::size_t k = 0; k < j; ++k) sum -= root_[i * N + k] * root_[j * N + k];
-        if (i != j)
-          root_[i * N + j] = sum / root_[j * N + j];
-        else
-          root_[i * N + i] = std::sqrt(sum > kLeastPivot ? sum : kLeastPivot);
+  // Uses the upper triangle.
+  explicit Cholesky(const std::array<double, N * N>& matrix) noexcept : root_(matrix) {
+    for (std::size_t k = 0; k < N; ++k) {
+      double* const row = &root_[k * N];
+      row[k] = std::sqrt(row[k] > kLeastPivot ? row[k] : kLeastPivot);
+      for (std::size_t j = k + 1; j < N; ++j) row[j] /= row[k];
+      for (std::size_t i = k + 1; i < N; ++i) {
+        double* const below = &root_[i * N];
+        const double factor = row[i];
+        for (std::size_t j = i; j < N; ++j) below[j] -= factor * row[j];
       }
+    }
+  }
+
+  // U^-T b. The product of two such vectors is a^T M^-1 b.
+  std::array<double, N> scaled(std::array<double, N> b) const noexcept {
+    for (std::size_t i = 0; i < N; ++i) {
+      b[i] /= root_[i * N + i];
+      for (std::size_t j = i + 1; j < N; ++j) b[j] -= root_[i * N + j] * b[i];
+    }
+    return b;
   }
 
   // M^-1 b.
-  std::array<double, N> solve(std::array<double, N> b) const noexcept {
-    for (std::size_t i = 0; i < N; ++i) {
-      for (std::size_t k = 0; k < i; ++k) b[i] -= root_[i * N + k] * b[k];
-      b[i] /= root_[i * N + i];
-    }
+  std::array<double, N> solve(const std::array<double, N>& right) const noexcept {
+    auto b = scaled(right);
     for (std::size_t i = N; i-- > 0;) {
-      for (std::size_t k = i + 1; k < N; ++k) b[i] -= root_[k * N + i] * b[k];
+      for (std::size_t k = i + 1; k < N; ++k) b[i] -= root_[i * N + k] * b[k];
       b[i] /= root_[i * N + i];
     }
     return b;
   }
 
-  // M^-1 = K^T K with K = L^-1.
+  // M^-1 = K^T K with K = U^-T.
   std::array<double, N * N> inverse() const noexcept {
-    std::array<double, N * N> k{};
-    for (std::size_t j = 0; j < N; ++j) {
-      k[j * N + j] = 1.0 / root_[j * N + j];
-      for (std::size_t i = j + 1; i < N; ++i) {
-        double sum = 0.0;
-        for (std::size_t m = j; m < i; ++m) sum -= root_[i * N + m] * k[j * N + m];
-        k[j * N + i] = sum / root_[i * N + i];  // column j of K, stored as a row
+    std::array<double, N * N> k{};  // row m of K
+    for (std::size_t m = 0; m < N; ++m) k[m * N + m] = 1.0;
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) k[i * N + j] /= root_[i * N + i];
+      for (std::size_t m = i + 1; m < N; ++m) {
+        const double factor = root_[i * N + m];
+        for (std::size_t j = 0; j <= i; ++j) k[m * N + j] -= factor * k[i * N + j];
       }
     }
     std::array<double, N * N> result{};
+    for (std::size_t m = 0; m < N; ++m)
+      for (std::size_t i = 0; i <= m; ++i)
+        for (std::size_t j = 0; j <= i; ++j) result[i * N + j] += k[m * N + i] * k[m * N + j];
     for (std::size_t i = 0; i < N; ++i)
-      for (std::size_t j = 0; j <= i; ++j) {
-        double sum = 0.0;
-        for (std::size_t m = i; m < N; ++m) sum += k[i * N + m] * k[j * N + m];
-        result[i * N + j] = result[j * N + i] = sum;
-      }
+      for (std::size_t j = 0; j < i; ++j) result[j * N + i] = result[i * N + j];
     return result;
   }
 
@@ -67,7 +75,7 @@ class Cholesky {
 
  private:
   static constexpr double kLeastPivot = 1e-300;
-  std::array<double, N * N> root_{};
+  std::array<double, N * N> root_;
 };
 
 }  // namespace sandhopper

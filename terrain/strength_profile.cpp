@@ -17,8 +17,6 @@ constexpr std::array<double, 5> kSmoothness_m{0.003, 0.01, 0.03, 0.1, 0.3};
 constexpr std::array<double, 4> kSpreadFactor{0.5, 1.0, 2.5, 6.0};
 constexpr std::size_t kGrid = kSmoothness_m.size() * kSpreadFactor.size();
 constexpr int kPasses = 3;
-constexpr double kDegrees = 1.0;  // degrees of freedom of Student's distribution; 1 is the Cauchy
-                                  // distribution
 
 // Cell of the shallowest sample.
 std::size_t first_observed(const ProfileSums& sums) noexcept {
@@ -55,9 +53,10 @@ void ProfileSolver::restart() noexcept {
   kept_normal_ = {};
   kept_moment_ = {};
   kept_errors_ = errors_ = {};
-  begins_m_ = 0.0;
-  shared_normal_ = {};
-  shared_moment_ = {};
+  kept_between_ = between_ = {};
+  inertia_ = {};
+  begins_m_ = friction_N_ = 0.0;
+  begins_of_ = {};
   posterior_ = {};
   posterior_.mean[kAddedMass] = config_.joint.added_mass_factor;
   profile_ = {};
@@ -81,7 +80,7 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
                                      {F::added_mass, 1.0, kAddedMass},
                                      {F::motor, 1.0, kScale},
                                      {F::intercept, prior_.believed_stiffness_N_per_m, kIntercept},
-                                     {F::friction, 1.0, kFriction}}};
+                                     {F::steady_drag, 1.0, kSteadyDrag}}};
     if (cell.observations == 0.0) continue;
     const double weight = 1.0 / noise_factor_[s], slope = slope_N_per_m_[s];
     const auto product = [&](F a, F b) { return weight * cell.product(a, b); };
@@ -90,16 +89,19 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
     info.change_mps[s] = product(F::one, F::speed) / sum;
     info.depth_moment[s] = slope * product(F::one, F::force);
     info.depth_normal[s] = slope * slope * sum;
+    info.friction_of_depth[s] = slope * product(F::one, F::friction);
+    info.friction_normal += product(F::friction, F::friction);
+    info.friction_moment += product(F::friction, F::force);
     for (const Column& a : own) {
       info.moment[a.term] += a.scale * product(a.feature, F::force);
-      info.of_drag[a.term] += a.scale * product(a.feature, F::steady_drag);
+      info.with_friction[a.term] += a.scale * product(a.feature, F::friction);
       for (const Column& b : own)
         info.normal[a.term * kTerms + b.term] += a.scale * b.scale * product(a.feature, b.feature);
       info.of_depth[s][a.term] = a.scale * slope * product(a.feature, F::one);
     }
     for (std::size_t i = 0; i < s; ++i) {
       info.moment[i] += kProfileCell_m * product(F::one, F::force);
-      info.of_drag[i] += kProfileCell_m * product(F::one, F::steady_drag);
+      info.with_friction[i] += kProfileCell_m * product(F::one, F::friction);
       info.of_depth[s][i] = kProfileCell_m * slope * sum;
       for (const Column& b : own) {
         const double value = kProfileCell_m * b.scale * product(F::one, b.feature);
@@ -115,85 +117,38 @@ ProfileSolver::Information ProfileSolver::information_of(const ProfileSums& sums
   return info;
 }
 
-// Coefficients of the innovation of kappa from one cell to the next, in units of the prior: here * kappa_j +
-// above * kappa_j-1.
-ProfileSolver::Innovation ProfileSolver::innovation(std::size_t j, double keep, double fresh,
-                                                    double spread) const noexcept {
-  if (j == 0) return {1.0 / (spread * believed_N_per_m_[0]), 0.0};
-  return {1.0 / (fresh * spread * believed_N_per_m_[j]), -keep / (fresh * spread * believed_N_per_m_[j - 1])};
-}
-
-// One step of expectation maximisation for innovations with Student's distribution: the variance of each
-// innovation given its expected square.
-void ProfileSolver::take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
-                               const Vector<kTerms>& mean) noexcept {
-  const double keep = std::exp(-kProfileCell_m / smoothness_m);
-  const double fresh = std::sqrt(1.0 - keep * keep);
-  for (std::size_t j = first_cell_; j < kN; ++j) {
-    const Innovation r = innovation(j, keep, fresh, spread);
-    double value = r.here * mean[j];
-    double square = r.here * r.here * covariance[j * kTerms + j];
-    if (j > 0) {
-      value += r.above * mean[j - 1];
-      square += 2.0 * r.here * r.above * covariance[j * kTerms + j - 1] +
-                r.above * r.above * covariance[(j - 1) * kTerms + j - 1];
-    }
-    jump_[j] = (kDegrees + value * value + square) / (kDegrees + 1.0);
-  }
-}
-
-// Adds the prior of kappa, c and e at one grid point. Returns half the logarithm of its determinant.
-double ProfileSolver::add_shared_prior(Information& info, double smoothness_m, double spread) const noexcept {
-  const double keep = std::exp(-kProfileCell_m / smoothness_m);
-  const double fresh = std::sqrt(1.0 - keep * keep);
-  double log_root = 0.0;
-  for (std::size_t j = 0; j < kN; ++j) {
-    const Innovation r = innovation(j, keep, fresh, spread);
-    const double precision = 1.0 / jump_[j];
-    log_root += std::log(r.here) - 0.5 * std::log(jump_[j]);
-    info.normal[j * kTerms + j] += precision * r.here * r.here;
-    if (j == 0) continue;
-    info.normal[(j - 1) * kTerms + j - 1] += precision * r.above * r.above;
-    info.normal[(j - 1) * kTerms + j] += precision * r.above * r.here;
-    info.normal[j * kTerms + j - 1] += precision * r.above * r.here;
-  }
-  const auto& joint = config_.joint;
-  const double mass = 1.0 / (joint.added_mass_factor_sd * joint.added_mass_factor_sd);
-  info.normal[kAddedMass * kTerms + kAddedMass] += mass;
-  info.moment[kAddedMass] += mass * joint.added_mass_factor;
-  const double scale_sd = std::max(joint.force_scale_relative, 1e-6);
-  info.normal[kScale * kTerms + kScale] += 1.0 / (scale_sd * scale_sd);
-  info.normal[kIntercept * kTerms + kIntercept] +=
-      1.0 / (joint.intercept_depth_sd_m * joint.intercept_depth_sd_m);
-  return log_root;
-}
-
-// Solves at one grid point. p.gain receives the precision N, not its inverse. Returns the log evidence.
-double ProfileSolver::solve_at(std::size_t point, const Information& data, Posterior& p) const noexcept {
+// Solves at one grid point. `p.gain` is set on demand. Returns the log evidence.
+double ProfileSolver::solve_at(std::size_t point, const Information& data, Posterior& p,
+                               bool with_gain) const noexcept {
   Information info = data;
   p.smoothness_m = kSmoothness_m[point / kSpreadFactor.size()];
   p.spread = prior_.stiffness_spread_relative * kSpreadFactor[point % kSpreadFactor.size()];
   const double log_prior = add_shared_prior(info, p.smoothness_m, p.spread);
+  hold_inertia(info);
   const Cholesky<kTerms> root(info.normal);
   p.mean = root.solve(info.moment);
-  p.gain = info.normal;
+  if (with_gain) p.gain = root.inverse();
   double fit = 0.0;
   for (std::size_t i = 0; i < kTerms; ++i) fit += info.moment[i] * p.mean[i];
   return log_prior - root.half_log_determinant() + 0.5 * fit;
 }
 
-// N^-1 + N^-1 S N^-1.
+// N^-1 + N^-1 E N^-1, with E the moment's errors.
 ProfileSolver::Matrix<ProfileSolver::kTerms> ProfileSolver::covariance_of(
-    const Matrix<kTerms>& gain) const noexcept {
+    const Matrix<kTerms>& gain, const Matrix<kTerms>& errors) const noexcept {
   Matrix<kTerms> product{}, covariance = gain;
   for (std::size_t i = 0; i < kTerms; ++i)
     for (std::size_t k = 0; k < kTerms; ++k)
       for (std::size_t j = 0; j < kTerms; ++j)
-        product[i * kTerms + j] += gain[i * kTerms + k] * errors_.moment[k * kTerms + j];
+        product[i * kTerms + j] += gain[i * kTerms + k] * errors[k * kTerms + j];
   for (std::size_t i = 0; i < kTerms; ++i)
     for (std::size_t k = 0; k < kTerms; ++k)
       for (std::size_t j = 0; j < kTerms; ++j)
         covariance[i * kTerms + j] += product[i * kTerms + k] * gain[k * kTerms + j];
+  if (!inertia_.fitted) return covariance;
+  for (std::size_t a = 0; a < kInertia.size(); ++a)
+    for (std::size_t b = 0; b < kInertia.size(); ++b)
+      covariance[kInertia[a] * kTerms + kInertia[b]] = inertia_.covariance[2 * a + b];
   return covariance;
 }
 
@@ -216,7 +171,7 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
   Posterior p;
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t g = 0; g < kGrid; ++g) {
-    weight[g] = solve_at(g, data, p);
+    weight[g] = solve_at(g, data, p, false);
     means[g] = p.mean;
     best = std::max(best, weight[g]);
   }
@@ -226,28 +181,26 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
     total += w = w < kNegligible ? 0.0 : w;
   }
   posterior_ = {};
+  const Matrix<kTerms> errors = moment_errors();
   for (std::size_t g = 0; g < kGrid; ++g) {
     weight[g] /= total;
     for (std::size_t i = 0; i < kTerms; ++i) posterior_.mean[i] += weight[g] * means[g][i];
   }
   if (!last) {
     const auto g = static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin());
-    solve_at(g, data, p);
-    posterior_.gain = Cholesky<kTerms>(p.gain).inverse();
-    posterior_.covariance = covariance_of(posterior_.gain);
+    solve_at(g, data, p, true);
+    posterior_.gain = p.gain;
+    posterior_.covariance = covariance_of(posterior_.gain, errors);
+    posterior_.smoothness_m = p.smoothness_m;
+    posterior_.spread = p.spread;
     take_jumps(p.smoothness_m, p.spread, posterior_.covariance, p.mean);
     return;
   }
   for (std::size_t g = 0; g < kGrid; ++g) {
     if (weight[g] == 0.0) continue;
-    solve_at(g, data, p);
-    const Matrix<kTerms> gain = Cholesky<kTerms>(p.gain).inverse();
-    Matrix<kTerms> covariance = covariance_of(gain), shared{};
-    add_error(gain, errors_.of_drag, prior_.steady_drag_sd, shared);
-    for (std::size_t i = 0; i < gain.size(); ++i) covariance[i] += shared[i];
-    // The moment's covariance holds these two already.
-    add_error(gain, errors_.of_surface, prior_.shared_surface_sd_m, shared);
-    add_error(gain, errors_.of_lag, prior_.depth_lag_sd_s, shared);
+    solve_at(g, data, p, true);
+    const Matrix<kTerms>& gain = p.gain;
+    const Matrix<kTerms> covariance = covariance_of(gain, errors), shared = shared_errors(gain);
     for (std::size_t i = 0; i < gain.size(); ++i) {
       posterior_.gain[i] += weight[g] * gain[i];
       posterior_.shared[i] += weight[g] * shared[i];
@@ -277,10 +230,10 @@ std::array<double, kProfileFeatures> ProfileSolver::residual_features(std::size_
           -kProfileCell_m * m[s],
           -prior_.believed_stiffness_N_per_m * m[kIntercept],
           -m[kAddedMass],
-          0.0,
+          -m[kSteadyDrag],
           0.0,
           -slope_N_per_m_[s] * prior_.depth_lag_s,
-          -m[kFriction],
+          -friction_N_,
           -m[kScale],
           1.0};
 }
@@ -373,19 +326,24 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   first_cell_ = stride > 1 ? first_observed(sums) : 0;
   std::fill(jump_.begin() + static_cast<std::ptrdiff_t>(first_cell_), jump_.end(), 1.0);
   Information info;
+  inertia_ = {};
   for (int pass = 0; pass < kPasses; ++pass) {
     if (stride <= 1) expect_contact(sums);
     info = information_of(sums);
+    if (stride <= 1) depend_on_contact(info);
     subtract_mean_depth_error(info);
+    if (pass > 0) add_between(info);
+    integrate_friction(info);
     take_depth_errors(info);
-    if (pass + 1 == kPasses) share(info);
-    add_stride_prior(info);
+    add_kept(info);
+    if (pass > 0) take_inertia(info);
     integrate(info, pass + 1 == kPasses);
+    take_friction(info);
     take_slopes();
     if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
   }
   for (std::size_t s = 0; s < kN; ++s) misfit_[s] = misfit_with(stride_misfit_[s], s);
-  take_responses(sums);
+  take_responses(sums, info);
   end_depth_errors(info, sums);
   keep(info);
   report(sums, stride);

@@ -20,9 +20,10 @@
 // Contact is detected when the force exceeds a threshold T, so a slow foot on soft ground is already deep:
 //   E d = d_T + t_c v_0,   F(d_T) + c m_a' v_0^2 = T, with the posterior's F and c
 //   var(d) = (s_T / F')^2 + (s_t v_0)^2 + s_d^2, of the noise of the force, the cycle, the surface
-// t_c is the mean time from the surface to the motors' reply whose depth is taken, for a foot whose blow
-// alone exceeds T. The filter fuses an accelerometer whose noise is white with a white height, so its error
-// is stationary, and from the filter's Riccati equation follows
+// d_T depends on the curve that is sought, so its change with the slope of the first cells is a part of the
+// columns of the fit. t_c is the mean time from the surface to the motors' reply whose depth is taken, for a
+// foot whose blow alone exceeds T. The filter fuses an accelerometer whose noise is white with a white
+// height, so its error is stationary, and from the filter's Riccati equation follows
 //   cov(x(t), x(t')) = s_x^2 exp(-a |t - t'|) cos(a (t - t')),  a = (q / 4 r)^(1/4)
 // q and r are the spectral densities of the noise of acceleration and height. (Gain K = (2 a, 2 a^2), so the
 // error decays and turns with a, and (exp((A - K C) t) P)_11 = P_11 exp(-a t) cos(a t).) So D grows like a
@@ -39,9 +40,16 @@
 // The measured force depends on the measured acceleration, F = M_f (a + g) + ..., so the likelihood of c has
 // the Jacobian prod (1 + c m_a / M_f). Without it a rough curve would be interpreted as little added mass.
 // lambda is the drag that does not fade as the cone of grains is complete. In a single stride it has the form
-// of a curve, because the foot slows down with depth. In several strides the errors of the depth have the
-// form of a drag: a foot that is deeper than estimated is slower than others at the same estimated depth. So
-// lambda is not fitted either. It keeps its prior, zero for the believed bed, and is the same in all strides.
+// of a curve, because the foot slows down with depth. In several strides it is the same, and the errors of
+// the depth differ. So c and lambda are estimated by generalised least squares in which D of each stride is
+// noise with its covariance, V = W^-1 + F' cov(D) F'^T + f's part: G t = X^T V^-1 y. The prior of kappa there
+// is that of the best point of the grid. Both are held in the fit of the curve. Let h be the column of (G +
+// prior)^-1 of such a coefficient, a its column of N, and var its variance. The covariance of the moment m,
+// less a times the coefficient's error, is
+//   N + S - Q a^T - a Q^T + var a a^T,  Q = (N - G) h
+// because cov(X^T W y, X^T V^-1 y) = X^T W X. The prior of kappa counts once for each place there: strides of
+// one set-up differ only by their errors, and would otherwise add up what the model of the errors gets wrong.
+// As kappa departs from its prior once only, n places add n (n - 1) h^T P h to the variance.
 // The lag, and a part of d, are the same on all places: contact is detected later on soft ground and at low
 // speed. No number of strides averages them out, so S holds their products between strides.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
@@ -117,11 +125,10 @@ ProfilePoint tangent_at(const StrengthProfile& profile, double depth_m) noexcept
 // Estimates the profile from all strides of a trial so far.
 class ProfileSolver {
  public:
-  static constexpr std::size_t kShared = kProfileCells + 3;  // kappa, c, e, z0
-  static constexpr std::size_t kTerms = kShared + 1;         // and f
+  static constexpr std::size_t kTerms = kProfileCells + 4;  // kappa, c, e, b, lambda
 
   static constexpr std::size_t kAddedMass = kProfileCells, kScale = kProfileCells + 1,
-                               kIntercept = kProfileCells + 2, kFriction = kProfileCells + 3;
+                               kIntercept = kProfileCells + 2, kSteadyDrag = kProfileCells + 3;
 
   template <std::size_t N>
   using Matrix = std::array<double, N * N>;
@@ -137,10 +144,10 @@ class ProfileSolver {
   void add(const ProfileSums& sums, std::uint32_t stride) noexcept;
   const StrengthProfile& profile() const noexcept { return profile_; }
   const StiffnessConfig& config() const noexcept { return config_; }
-  // Information of the strides on kappa, c, e and b, without its prior. The depth errors are integrated out,
-  // for each stride by itself.
-  const Matrix<kShared>& normal() const noexcept { return shared_normal_; }
-  const Vector<kShared>& moment() const noexcept { return shared_moment_; }
+  // Information of the strides on all terms, without their prior. The depth errors are integrated out, for
+  // each stride by itself.
+  const Matrix<kTerms>& normal() const noexcept { return between_.normal; }
+  const Vector<kTerms>& moment() const noexcept { return between_.moment; }
   double believed_N_per_m(std::size_t cell) const noexcept { return believed_N_per_m_[cell]; }
   double intercept_N_per_m(std::size_t cell) const noexcept { return intercept_N_per_m_[cell]; }
   // Line of the joint fit over all strides that have one; NaN if none has.
@@ -155,6 +162,8 @@ class ProfileSolver {
   // Depth at which a foot that lands on new ground with this speed is found in contact.
   struct ContactDepth {
     double mean_m = 0.0, variance_m2 = 0.0;
+    // Change of the mean for a change of the tangent stiffness of the first cells [m per N/m].
+    std::array<double, 2> of_slope{};
   };
   ContactDepth contact_depth(double speed_mps, double added_mass_kg_per_m) const noexcept;
 
@@ -172,7 +181,10 @@ class ProfileSolver {
     Vector<kProfileCells> depth_normal{};                  // of each D itself; zero: no sample
     Vector<kProfileCells> depth_moment{};
     Vector<kProfileCells> time_s{}, change_mps{};  // mean time and change of speed since contact
-    Vector<kTerms> of_drag{};                      // change of the moment for a unit of lambda
+    // Part of f, which belongs to this stride alone.
+    Vector<kTerms> with_friction{};
+    Vector<kProfileCells> friction_of_depth{};
+    double friction_normal = 0.0, friction_moment = 0.0;
   };
   struct Posterior {
     Vector<kTerms> mean{};
@@ -185,14 +197,35 @@ class ProfileSolver {
   struct DepthErrors {
     Matrix<kTerms> moment{};      // S
     Vector<kTerms> with_depth{};  // covariance of the moment's change and D
-    // Change of the moment, over all strides, for a unit of the surface's error that all places share, of l,
-    // and of lambda.
-    Vector<kTerms> of_surface{}, of_lag{}, of_drag{};
+    // Change of the moment, over all strides, for a unit of the surface's error that all places share, and of
+    // l.
+    Vector<kTerms> of_surface{}, of_lag{};
     Vector<kTerms> of_earlier_surface{};     // the same of the places before this one
     double mean_m = 0.0, variance_m2 = 0.0;  // of D
   };
+  // Normal equations of all strides in which D of each stride is noise with its covariance.
+  struct Between {
+    Matrix<kTerms> normal{};
+    Vector<kTerms> moment{};
+    Vector<kTerms> of_surface{}, of_lag{};  // as in DepthErrors
+  };
+  // c and lambda from the comparison of strides at different speeds, and their errors. Both are held in the
+  // fit of the curve. `with_moment`: Q. `of_error`: change of the curve's moment for a unit of the error.
+  static constexpr std::array<std::size_t, 2> kInertia{kAddedMass, kSteadyDrag};
+  struct Inertia {
+    std::array<double, 2> mean{};
+    Matrix<2> covariance{};
+    std::array<Vector<kTerms>, 2> with_moment{}, of_error{};
+    std::array<double, 2> of_surface{}, of_lag{};  // change for a unit of the errors that all strides share
+    bool fitted = false;  // otherwise lambda is zero and c belongs to the fit of the curve
+    bool holds(std::size_t term) const noexcept {
+      return term == kSteadyDrag || (fitted && term == kAddedMass);
+    }
+  };
   Information information_of(const ProfileSums& sums) const noexcept;
-  void add_stride_prior(Information& information) const noexcept;
+  void depend_on_contact(Information& information) const noexcept;
+  void integrate_friction(Information& information) const noexcept;
+  void add_kept(Information& information) const noexcept;
   double add_shared_prior(Information& information, double smoothness_m, double spread) const noexcept;
   struct Innovation {
     double here, above;
@@ -201,16 +234,24 @@ class ProfileSolver {
   void take_jumps(double smoothness_m, double spread, const Matrix<kTerms>& covariance,
                   const Vector<kTerms>& mean) noexcept;
   void integrate(const Information& information, bool last) noexcept;
-  Matrix<kTerms> covariance_of(const Matrix<kTerms>& gain) const noexcept;
+  Matrix<kTerms> covariance_of(const Matrix<kTerms>& gain, const Matrix<kTerms>& errors) const noexcept;
   void add_error(const Matrix<kTerms>& gain, const Vector<kTerms>& of_error, double sd,
                  Matrix<kTerms>& covariance) const noexcept;
-  double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior) const noexcept;
-  void take_responses(const ProfileSums& sums) noexcept;
+  void take_friction(const Information& information) noexcept;
+  void add_between(const Information& own) noexcept;
+  void take_inertia(const Information& information) noexcept;
+  void hold_inertia(Information& information) const noexcept;
+  Matrix<kTerms> moment_errors() const noexcept;
+  Matrix<kTerms> shared_errors(const Matrix<kTerms>& gain) const noexcept;
+  double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior,
+                  bool with_gain) const noexcept;
+  void take_responses(const ProfileSums& sums, const Information& information) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
   void begin_depth_errors(bool in_crater) noexcept;
   void expect_contact(const ProfileSums& sums) noexcept;
   double mean_depth_error_m(double change_mps) const noexcept;
   void subtract_mean_depth_error(Information& information) const noexcept;
+  static void subtract_depth_error(Information& information, const Vector<kProfileCells>& mean_m) noexcept;
   double depth_covariance_m2(double time_s, double change_mps, double other_s,
                              double other_mps) const noexcept;
   Matrix<kProfileCells> depth_covariance(const Information& information) const noexcept;
@@ -218,7 +259,6 @@ class ProfileSolver {
   void take_depth_errors(const Information& information) noexcept;
   void end_depth_errors(const Information& information, const ProfileSums& sums) noexcept;
   void keep(const Information& information) noexcept;
-  void share(const Information& own) noexcept;
   void take_slopes() noexcept;
   void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
   void weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept;
@@ -246,14 +286,16 @@ class ProfileSolver {
                                                        // cell
   std::array<Misfit, kProfileCells> misfit_{}, stride_misfit_{};  // of the previous strides, of this one
   double begins_m_ = 0.0;                                         // mean of D at the beginning of this stride
+  Vector<kTerms> begins_of_{};                                    // its change for a unit of each term
+  double friction_N_ = 0.0;                                       // f of this stride
   int places_ = 0;                                                // number of places on ground prepared alike
   std::array<double, kProfileCells> jump_{};  // variance of each innovation relative to its prior
   std::array<Vector<kTerms>, kProfileCells> response_{};
   Matrix<kTerms> kept_normal_{};
   Vector<kTerms> kept_moment_{};
   DepthErrors kept_errors_{}, errors_{};  // before and after the moments of this stride
-  Matrix<kShared> shared_normal_{};
-  Vector<kShared> shared_moment_{};
+  Between kept_between_{}, between_{};    // the same
+  Inertia inertia_{};
   std::size_t broken_cells_ = 0;
   std::size_t first_cell_ = 0;  // first cell of the last stride's new ground
   ReloadingPosterior reloading_;

@@ -113,6 +113,7 @@ template Option Arguments::add_option(const std::string&, std::string&, const st
 template Option Arguments::add_option(const std::string&, std::filesystem::path&, const std::string&);
 template Option Arguments::add_option(const std::string&, std::optional<int>&, const std::string&);
 template Option Arguments::add_option(const std::string&, std::optional<double>&, const std::string&);
+template Option Arguments::add_option(const std::string&, std::vector<int>&, const std::string&);
 template Option Arguments::add_option(const std::string&, std::vector<double>&, const std::string&);
 template Option Arguments::add_option(const std::string&, std::vector<std::string>&, const std::string&);
 template Option Arguments::add_option(const std::string&, std::vector<std::filesystem::path>&,

@@ -46,8 +46,8 @@ class Arguments {
   explicit Arguments(CLI::App& app) : app_(&app) {}
 
   // Value may be int, long, unsigned, std::uint64_t, double, std::string, std::filesystem::path, an optional
-  // int or double, or a list of double, std::string or path. Another type needs an instantiation at the end
-  // of arguments.cpp.
+  // int or double, or a list of int, double, std::string or path. Another type needs an instantiation at the
+  // end of arguments.cpp.
   template <class Value>
   Option add_option(const std::string& name, Value& value, const std::string& help);
   Option add_flag(const std::string& name, bool& value, const std::string& help);

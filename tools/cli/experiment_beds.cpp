@@ -13,6 +13,7 @@ namespace {
 
 struct Options : BedOptions {
   long strides = 200;
+  std::vector<int> places;
   bool null = false;
 };
 
@@ -133,9 +134,24 @@ void say_null(Session& session, const std::vector<BedScore>& scores) {
   }
 }
 
+void say_places(Session& session, const std::vector<BedScore>& scores) {
+  session.say(
+      "\nfirst strides joined to sessions of several places [%]: depths whose mean curve the band holds");
+  for (const auto& s : scores) {
+    std::string row;
+    for (const auto& p : s.places)
+      row += p.sessions == 0.0
+                 ? fmt::format("  {}: too few strides", p.places)
+                 : fmt::format("  {}: {} ({:.0f} sessions)", p.places, percent(p.band.share()), p.sessions);
+    session.say("  {:<17}{}", s.bed,
+                row.empty() ? "  -  its form differs from place to place, so there is no common curve" : row);
+  }
+}
+
 ExitCode run(Session& session, const Options& options) {
   auto setup = options.setup<BedScoreSetup>(session);
   setup.trials = options.strides;
+  setup.places = options.places;
   double total = 0.0;
   Progress progress("hopping", 1.0);
   setup.progress = [&](long done, long all) {
@@ -148,6 +164,7 @@ ExitCode run(Session& session, const Options& options) {
   const auto scores = scored_beds(score_beds, setup);
   say_first(session, scores);
   say_later(session, scores);
+  if (!options.places.empty()) say_places(session, scores);
   say_depth_errors(session, scores);
   say_events(session, scores, true);
   say_events(session, scores, false);
@@ -170,6 +187,9 @@ Run set_up(Arguments& arguments) {
       .in_range(1L, 10'000'000L)
       .show_default();
   o->add_to(arguments, "stride");
+  arguments
+      .add_option("--places", o->places, "numbers of places that first strides are joined to, e.g. 1 2 4 10")
+      .in_range(1, 10'000);
   arguments.add_flag("--null", o->null, "quantiles of the event statistics in strides without the event");
   return [o](Session& session) { return run(session, *o); };
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include "terrain/ground_summary.hpp"
@@ -15,10 +16,8 @@ namespace sandhopper {
 namespace {
 
 constexpr double kNormal975 = 1.959964;
-constexpr double kFirstDepth_m = 0.002;  // at smaller depths the surface error is larger than the force
 constexpr double kWidthDepth_m = 0.020;
 constexpr double kNone_m = std::numeric_limits<double>::infinity();
-constexpr double kPitch_m = 0.001;
 constexpr double kSamePlace_m = 0.010;  // an event found farther away is a different one
 constexpr double kAccurate_m = 0.002;
 constexpr double kNear_m = 0.005;
@@ -27,18 +26,6 @@ constexpr double kBeyond_m = 0.001;  // the foot must pass an event by this much
 constexpr double kFast_mps =
     0.3;  // from this speed on, the blow alone is the force at which contact is found
 constexpr int kStrides = 3;
-
-void score_band(const StrengthProfile& profile, const BedTruth& truth, double from_m, double to_m,
-                CoverageScore& score) {
-  const double first_m = kPitch_m * std::ceil(std::max(from_m, kFirstDepth_m) / kPitch_m);
-  for (double z = first_m; z <= std::min(to_m, kProfileDepth_m); z += kPitch_m) {
-    const auto claim = force_at(profile, z);
-    const double true_N = truth.force_at_N(z);
-    score.depths += 1.0;
-    score.covered += claim.low() <= true_N && true_N <= claim.high();
-    score.squared_error += (claim.value / true_N - 1.0) * (claim.value / true_N - 1.0);
-  }
-}
 
 // `true_depth_m` is infinite if the bed has no such event.
 void score_event(const GroundEvent& event, GroundEventKind kind, double true_depth_m, double deepest_m,
@@ -168,10 +155,8 @@ void score_later(const BedStride& stride, const BedTruth& truth, const Answer& a
   score_band(profile, truth, stride.true_crater_m, stride.true_deepest_m, score.fresh);
 }
 
-void score_trial(const BedScoreSetup& setup, const BedCase& bed, std::uint64_t seed, BedScore& score,
-                 std::mutex& adding) {
+void score_trial(const BedScoreSetup& setup, const BedTrial& trial, BedScore& score, std::mutex& adding) {
   const auto& config = setup.cycle.stiffness;
-  const auto trial = run_bed_trial(setup.cycle, setup.world, bed, seed, kStrides);
   const auto answers = answers_to(trial, config);
   const std::lock_guard lock(adding);
   score.trials += 1.0;
@@ -204,6 +189,26 @@ void NumberScore::add(double value, double low, double high, double truth) {
   covered += low <= truth && truth <= high;
 }
 
+namespace {
+
+std::optional<Place> first_place(const BedTrial& trial) {
+  if (trial.strides.empty()) return std::nullopt;
+  const auto& stride = trial.strides.front();
+  return Place{.sums = stride.sums.profile, .truth = trial.truth, .deepest_m = stride.true_deepest_m};
+}
+
+std::vector<PlacesScore> scores_of_places(const BedScoreSetup& setup,
+                                          const std::vector<std::optional<Place>>& trials) {
+  std::vector<Place> places;
+  for (const auto& place : trials)
+    if (place) places.push_back(*place);
+  std::vector<PlacesScore> scores;
+  for (const int count : setup.places) scores.push_back(score_places(places, count, setup.cycle.stiffness));
+  return scores;
+}
+
+}  // namespace
+
 std::vector<BedScore> score_beds(const BedScoreSetup& setup) {
   const auto cases = named_bed_cases(setup.beds);
   std::vector<BedScore> scores;
@@ -211,15 +216,21 @@ std::vector<BedScore> score_beds(const BedScoreSetup& setup) {
   for (const auto& bed : cases) {
     auto& score = scores.emplace_back(BedScore{.bed = bed.name});
     std::mutex adding;
+    const bool joined = !setup.places.empty() && has_common_curve(bed);
+    std::vector<std::optional<Place>> places(joined ? static_cast<std::size_t>(setup.trials) : 0);
     parallel_for(
         setup.trials, setup.threads,
         [&](long i) {
-          score_trial(setup, bed, setup.first_seed + static_cast<std::uint64_t>(i), score, adding);
+          const auto trial = run_bed_trial(setup.cycle, setup.world, bed,
+                                           setup.first_seed + static_cast<std::uint64_t>(i), kStrides);
+          score_trial(setup, trial, score, adding);
+          if (joined) places[static_cast<std::size_t>(i)] = first_place(trial);
         },
         [&](long done, long) {
           if (setup.progress)
             setup.progress(done_before + done, setup.trials * static_cast<long>(cases.size()));
         });
+    if (joined) score.places = scores_of_places(setup, places);
     done_before += setup.trials;
     if (setup.finished) setup.finished(score);
   }
@@ -265,6 +276,9 @@ void to_json(nlohmann::ordered_json& json, const BedScore& s) {
   nlohmann::ordered_json shapes;
   for (std::size_t i = 0; i < s.first.shapes.size(); ++i)
     shapes[std::string(EnumNames<GroundShape>::value[i])] = s.first.shapes[i];
+  auto places = nlohmann::ordered_json::array();
+  for (const auto& p : s.places)
+    places.push_back({{"places", p.places}, {"sessions", p.sessions}, {"band", json_of(p.band)}});
   json = {{"bed", s.bed},
           {"trials", s.trials},
           {"incomplete", s.incomplete},
@@ -298,6 +312,7 @@ void to_json(nlohmann::ordered_json& json, const BedScore& s) {
             {"landing_mean_m", s.crater.landing_error_m / std::max(1.0, s.crater.landings)},
             {"landing_rms_m", s.crater.landing_rms_m()},
             {"events", json_of(s.later_events)}}},
+          {"places", places},
           {"median_solve_s", median(s.solve_s)},
           {"median_search_s", median(s.search_s)}};
 }

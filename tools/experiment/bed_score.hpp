@@ -8,18 +8,12 @@
 
 #include "terrain/ground_events.hpp"
 #include "tools/experiment/bed_strides.hpp"
+#include "tools/experiment/coverage_score.hpp"
+#include "tools/experiment/place_score.hpp"
 
 // Scores the results of strides on beds of every family: coverage and width of the strength profile, slope of
 // a line, crater of later strides, and events found, missed and false.
 namespace sandhopper {
-
-struct CoverageScore {
-  double depths = 0.0;         // number of depths at which the band was compared: visited by the foot, from 2
-                               // mm on
-  double covered = 0.0;        // true value inside mean +- 1.96 sd
-  double squared_error = 0.0;  // sum of ((mean - truth) / truth)^2
-  double share() const { return covered / depths; }
-};
 
 // Score of a value with a 95 % interval against the true value.
 struct NumberScore {
@@ -89,6 +83,7 @@ struct BedScore {
   FirstStrideScore first{};
   CraterScore crater{};
   EventScores first_events{}, later_events{};
+  std::vector<PlacesScore> places{};          // one for each number of places that was asked for
   std::vector<double> solve_s{}, search_s{};  // for each stride: profile and summary; events
 };
 
@@ -97,6 +92,9 @@ struct BedScoreSetup {
   WorldConfig world{};
   std::vector<std::string> beds{};  // names of bed_cases(); empty: those that are standard
   long trials = 200;                // trials per bed, of three strides each
+  // Numbers of places: the first strides on beds that have a common curve are also joined to sessions of so
+  // many places.
+  std::vector<int> places{};
   std::uint64_t first_seed = 1;
   unsigned threads = 2;
   std::function<void(long done, long total)> progress{};

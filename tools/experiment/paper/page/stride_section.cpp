@@ -12,11 +12,11 @@ namespace sandhopper::paper {
 namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
-using Value = std::function<double(const HopRow&)>;
+using RowValue = std::function<double(const HopRow&)>;
 
 // A channel over time in ms; rows without a value are left out.
 StudySeries over_time(const HopTrial& trial, std::string label, std::string color, Style style,
-                      const Value& value) {
+                      const RowValue& value) {
   auto series = curve(std::move(label), std::move(color), style);
   for (const auto& row : trial.rows)
     if (const double y = value(row); std::isfinite(y)) add(series, 1e3 * row.time_s, y);
@@ -123,7 +123,7 @@ StudyFigure touchdown(const HopTrial& t) {
           .series = {truth, cell, quasi_static, observer}};
 }
 
-StudySeries over_depth(const HopTrial& trial, std::string label, std::string color, const Value& force) {
+StudySeries over_depth(const HopTrial& trial, std::string label, std::string color, const RowValue& force) {
   auto series = curve(std::move(label), std::move(color));
   const auto at = stance_rows(trial);
   for (std::size_t i = at.contact; i < at.liftoff; ++i)
