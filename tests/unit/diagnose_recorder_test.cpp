@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -124,6 +125,20 @@ TEST(DiagnoseRecorder, WhatALowPassRemembersOfTheCatchSaysNothing) {
   EXPECT_DOUBLE_EQ(misfit(trial, body), before);
   trial.channels[body][4] += 9.81;
   EXPECT_GT(misfit(trial, body), 2.0 * before);
+}
+
+// Commands and phases of the cycle before, beside the sensors at its end.
+TEST(DiagnoseRecorder, CommandsOfTheCycleBeforeAreThoseOfTheirCycle) {
+  const Trial exact = hop();
+  Trial late = exact;
+  for (auto& [name, values] : late.channels)
+    if (name == "phase" || name.starts_with("command_"))
+      std::rotate(values.rbegin(), values.rbegin() + 1, values.rend()), values.front() = values[1];
+  EXPECT_FALSE(currents_follow_own_row(exact));
+  EXPECT_TRUE(currents_follow_own_row(late));
+  for (const char* channel :
+       {"motor_left_current_A", "motor_left_position_rad", "command_left_torque_Nm", "load_cell_force_N"})
+    EXPECT_LT(misfit(late, channel), 1.1 * misfit(exact, channel) + 1e-6) << channel;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sandhopper::diagnose {
 namespace {
@@ -116,6 +117,33 @@ Samples mean_of_motors(const Trial& trial, const std::string& quantity) {
   Samples mean = left;
   for (std::size_t i = 0; i < mean.value.size(); ++i) mean.value[i] = 0.5 * (left.value[i] + right.value[i]);
   return mean;
+}
+
+bool currents_follow_own_row(const Trial& trial) {
+  constexpr double kNearer = 0.5;
+  const auto* current = trial.find("motor_left_current_A");
+  const auto* command = trial.find("command_left_torque_Nm");
+  if (current == nullptr || command == nullptr) return false;
+  // Variance of the current that a line through the command of `late` rows before leaves.
+  const auto left_by = [&](std::size_t late) {
+    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (std::size_t k = 1; k < current->size(); ++k) {
+      const double own = (*command)[k - late], value = (*current)[k];
+      if (std::isnan((*command)[k]) || std::isnan((*command)[k - 1]) || std::isnan(value)) continue;
+      n += 1.0, x += own, y += value, xx += own * own, xy += own * value, yy += value * value;
+    }
+    const double var_x = xx - x * x / n, cov = xy - x * y / n;
+    return var_x > 0.0 ? yy - y * y / n - cov * cov / var_x : std::numeric_limits<double>::infinity();
+  };
+  return left_by(0) < kNearer * left_by(1);
+}
+
+Trial with_commands_a_row_earlier(Trial trial) {
+  for (auto& [name, values] : trial.channels)
+    if ((name == "phase" || name.starts_with("command_")) && values.size() > 1)
+      std::rotate(values.begin(), values.begin() + 1, values.end()),
+          values.back() = values[values.size() - 2];
+  return trial;
 }
 
 Samples commands_of(const Trial& trial) {

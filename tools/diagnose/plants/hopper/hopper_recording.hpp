@@ -47,6 +47,15 @@ HopperCourse course_of(const Trial& trial, const Leg& leg, double flight_length_
 // than half a cycle.
 std::vector<PhaseChange> at_cycles(const HopperCourse& course, double cycle_s);
 
+// True if the currents of a row follow the command of the same row, and not that of the row before. Mostly a
+// drive replies before it receives a row's command. Decided by a regression of the current on each command:
+// one must leave half of what the other leaves. False if they were not recorded.
+bool currents_follow_own_row(const Trial& trial);
+
+// The trial of a recorder that writes commands and phases in the row after the cycle that they belong to:
+// both moved to the row before.
+Trial with_commands_a_row_earlier(Trial trial);
+
 // Mean of both motors, or the value of the one that was recorded.
 Samples mean_of_motors(const Trial& trial, const std::string& quantity);
 

@@ -59,6 +59,8 @@ HopperTrial::HopperTrial(const Trial& trial, const Belief& belief)
   } else {
     controller_ = RecordedController(trial, leg, world_, course_.end_s);
     controller_.find_age(world_, compression_stiffness_, course_.phases);
+    has_late_commands_ = controller_.age_s() > 0.0 && currents_follow_own_row(trial);
+    if (has_late_commands_) return;
     residual_ = controller_.residual_Nm(world_, compression_stiffness_, course_.phases);
   }
   blocks = static_cast<std::uint32_t>(course_.hops.size());
@@ -278,7 +280,9 @@ std::vector<std::string> hopper_phases() {
 }
 
 std::unique_ptr<TrialModel> hopper_trial(const Trial& trial, const Belief& belief) {
-  return std::make_unique<hopper::HopperTrial>(trial, belief);
+  auto model = std::make_unique<hopper::HopperTrial>(trial, belief);
+  if (!model->has_late_commands()) return model;
+  return std::make_unique<hopper::HopperTrial>(with_commands_a_row_earlier(trial), belief);
 }
 
 }  // namespace sandhopper::diagnose

@@ -84,6 +84,10 @@ class HopperTrial final : public TrialModel {
  public:
   HopperTrial(const Trial& trial, const Belief& belief);
 
+  // True if each command is computed from the row before and acts in its own row: the recorder wrote commands
+  // and phases a row late.
+  bool has_late_commands() const { return has_late_commands_; }
+
   void predict(const Edits& edits, std::span<const double> n, std::span<double> out) const override;
   std::vector<VariantPair> variants() const override;
   void predict_variant(const Variant& variant, const Edits& edits, std::span<const double> n,
@@ -157,6 +161,7 @@ class HopperTrial final : public TrialModel {
   HopperCourse course_;
   std::vector<PhaseChange> phases_at_cycles_;  // those of `course_`, for the simulated controller
   Signal commands_{0.0, kTick_s, {}}, residual_{0.0, kTick_s, {}};
+  bool has_late_commands_ = false;
   RecordedController controller_;
   BedGrains grains_;
   std::array<std::vector<Span>, kSources.size()> spans_;

@@ -23,6 +23,8 @@ class RecordedController {
   void find_age(const WorldConfig& world, double compression_stiffness_N_per_m,
                 const std::vector<PhaseChange>& phases);
 
+  double age_s() const { return age_s_; }
+
   // Smooths the recorded leg again, as its difference from a simulated one. The leg's rate bends sharply
   // where the command jumps; smoothing the recording itself would round that off, and the command that
   // follows from it. `angle_rad`, `rate_radps`: of a simulation with the same phase changes.
