@@ -3,6 +3,7 @@
 //   node tools/benchmark/learn_port_error.mjs                        tables of port_error.csv
 //   node tools/benchmark/learn_port_error.mjs HOP PROGRAM=FOLDER…    makes port_error.csv anew: HOP is bin/hop,
 //                                                                    FOLDER holds one program's campaigns
+// Plants are learnt apart; the plant is read from campaign.toml.
 // A campaign's log evidence is that of `hop diagnose --port-errors`; differences of it count, not its value.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -13,7 +14,7 @@ const kSizes = [0, 0.0025, 0.005, 0.01, 0.02, 0.035];
 const file = new URL('port_error.csv', import.meta.url);
 
 function measure(hop, programs) {
-  const lines = ['program,campaign,' + kSizes.join(',')];
+  const lines = ['plant,program,campaign,' + kSizes.join(',')];
   for (const program of programs) {
     const [name, folder] = program.split('=');
     if (folder === undefined) throw new Error(`"${program}": write PROGRAM=FOLDER`);
@@ -22,11 +23,13 @@ function measure(hop, programs) {
     if (campaigns.length === 0) throw new Error(`${folder}: no campaign (a folder with campaign.toml)`);
     campaigns.forEach((campaign, i) => {
       console.error(`${name}: campaign ${i + 1} of ${campaigns.length}`);
+      const plant = fs.readFileSync(path.join(campaign, 'campaign.toml'), 'utf8').match(/^plant\s*=\s*"(\w+)"/m)?.[1];
+      if (plant === undefined) throw new Error(`${campaign}/campaign.toml: no line plant = "…"`);
       const output = fs.mkdtempSync(path.join(os.tmpdir(), 'port_error_'));
       const words = ['diagnose', campaign, '--output', output, '--json', '--port-errors', kSizes.join(',')];
       const text = execFileSync(hop, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
       const evidence = JSON.parse(text).port_error_evidence.map(({ log_evidence }) => log_evidence.toFixed(1));
-      lines.push([name, i + 1, ...evidence].join(','));
+      lines.push([plant, name, i + 1, ...evidence].join(','));
       fs.writeFileSync(file, lines.join('\n') + '\n');
     });
   }
@@ -34,8 +37,8 @@ function measure(hop, programs) {
 
 function read() {
   const [head, ...lines] = fs.readFileSync(file, 'utf8').trim().split('\n').map((line) => line.split(','));
-  return { sizes: head.slice(2).map(Number),
-    campaigns: lines.map(([program, , ...values]) => ({ program, evidence: values.map(Number) })) };
+  return { sizes: head.slice(3).map(Number),
+    campaigns: lines.map(([plant, program, , ...values]) => ({ plant, program, evidence: values.map(Number) })) };
 }
 
 // Summed log evidence of each size.
@@ -43,10 +46,10 @@ const summed = (campaigns, count) => Array.from({ length: count }, (_, i) =>
   campaigns.reduce((sum, { evidence }) => sum + evidence[i], 0));
 const best = (sums) => sums.indexOf(Math.max(...sums));
 
-function tables({ sizes, campaigns }) {
+function tables({ sizes, campaigns }, plant) {
   const names = [...new Set(campaigns.map(({ program }) => program))];
   const loss = (sums, i) => (Math.max(...sums) - sums[i]).toFixed(0);
-  console.log(`log evidence lost against the best size\nprogram campaigns ${sizes.join(' ')}`);
+  console.log(`${plant}: log evidence lost against the best size\nprogram campaigns ${sizes.join(' ')}`);
   for (const name of [...names, 'all']) {
     const own = campaigns.filter(({ program }) => name === 'all' || program === name);
     const sums = summed(own, sizes.length);
@@ -63,4 +66,6 @@ function tables({ sizes, campaigns }) {
 
 const [hop, ...programs] = process.argv.slice(2);
 if (hop !== undefined) measure(hop, programs);
-tables(read());
+const learnt = read();
+for (const plant of new Set(learnt.campaigns.map((campaign) => campaign.plant)))
+  tables({ ...learnt, campaigns: learnt.campaigns.filter((campaign) => campaign.plant === plant) }, plant);

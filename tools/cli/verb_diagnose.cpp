@@ -20,6 +20,7 @@
 #include "tools/diagnose/answer/residuals_csv.hpp"
 #include "tools/diagnose/discrepancy/port_error_evidence.hpp"
 #include "tools/diagnose/engine.hpp"
+#include "tools/diagnose/evidence/form_error_evidence.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
 
 namespace sandhopper::cli {
@@ -34,6 +35,8 @@ struct Options {
   bool report = true;
   double limit_s = std::numeric_limits<double>::infinity();
   std::vector<double> port_errors;
+  std::vector<double> form_errors;
+  std::string form_error_effect;
 };
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -119,6 +122,33 @@ ExitCode tell_port_errors(Session& session, const sandhopper::diagnose::Recordin
   return ExitCode::ok;
 }
 
+// Prints the log evidence of a campaign in which one listed effect is missing, for each share of the form
+// error.
+ExitCode tell_form_errors(Session& session, const sandhopper::diagnose::Recordings& recordings,
+                          const Options& options, Progress& progress) {
+  if (options.form_error_effect.empty())
+    throw Failure(ExitCode::usage, "--form-errors needs the effect that is missing",
+                  "add --effect NAME; --effects lists their names");
+  const auto known = sandhopper::diagnose::known_effects();
+  if (std::ranges::find(known, options.form_error_effect, &sandhopper::diagnose::Effect::id) == known.end())
+    throw Failure(ExitCode::usage, fmt::format("\"{}\" is no listed effect", options.form_error_effect),
+                  "--effects lists their names");
+  const auto evidence = sandhopper::diagnose::form_error_evidence(
+      recordings, options.form_error_effect, options.form_errors,
+      [&](double share) { progress.at(share, "fitting the effect"); });
+  session.result["form_error_evidence"] = nlohmann::json::array();
+  if (evidence.empty())
+    session.say(
+        "{}: no log evidence. It is not possible in this campaign, has no law (a reading), or the fit failed",
+        options.form_error_effect);
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    session.say("form error, share {}: log evidence {:.1f}", options.form_errors[i], evidence[i]);
+    session.result["form_error_evidence"].push_back(
+        {{"share", options.form_errors[i]}, {"log_evidence", evidence[i]}});
+  }
+  return evidence.empty() ? ExitCode::no : ExitCode::ok;
+}
+
 ExitCode diagnose(Session& session, const Options& options) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -134,6 +164,7 @@ ExitCode diagnose(Session& session, const Options& options) {
   if (input.recordings.trials.empty()) return tell_nothing_usable(session, folder, campaign.trials.size());
   if (!options.port_errors.empty())
     return tell_port_errors(session, input.recordings, options.port_errors, progress);
+  if (!options.form_errors.empty()) return tell_form_errors(session, input.recordings, options, progress);
   sandhopper::diagnose::EngineOptions engine;
   engine.tell_evidence = options.search;
   const auto used = used_numbers(campaign);
@@ -195,6 +226,14 @@ Run set_up(Arguments& arguments) {
                   "port's scale, explain a campaign in which nothing is missing")
       .separated_by(',')
       .in_range(0.0, 10.0);
+  arguments
+      .add_option("--form-errors", options->form_errors,
+                  "no diagnosis: how well these shares of the assumed error in the form of a law explain a "
+                  "campaign in which only the effect named by --effect is missing")
+      .separated_by(',')
+      .in_range(1e-3, 100.0);
+  arguments.add_option("--effect", options->form_error_effect,
+                       "effect for --form-errors, e.g. terrain.added_mass");
   return [options](Session& session) { return diagnose(session, *options); };
 }
 

@@ -2,11 +2,10 @@
 
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
+#include "tools/diagnose/recordings/data_faults.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
-
-using Eigen::Index, Eigen::MatrixXd;
 
 // The belief fitted with this size of the port error: nuisances and tolerances, then the noise, then again.
 Point settled(Problem& problem) {
@@ -19,34 +18,25 @@ Point settled(Problem& problem) {
   return null;
 }
 
+// ln of the density of a trial's rows, with its nuisances and its model error integrated out.
 double log_evidence_of_trial(const Problem& problem, std::size_t t, const Point& null, const Edits& base) {
-  const TrialModel& trial = *problem.trials[t];
-  const auto& nuisances = null.nuisances[t];
-  MatrixXd residual = residual_of(trial, predicted(problem, trial, base, nuisances));
-  const auto count = static_cast<Index>(trial.trial_nuisances.size());
-  const MatrixXd& error = problem.model_error[t].columns;
-  MatrixXd columns(residual.rows(), count + error.cols());
-  columns << problem.kept_columns[t].shared.rightCols(count), error;
-  for (Index j = 0; j < count; ++j) {
-    residual.col(0) += columns.col(j) * nuisances[static_cast<std::size_t>(j)];
-    columns.col(j) *= trial.trial_nuisances[static_cast<std::size_t>(j)].sd;
-  }
-  problem.noise.whiten(trial, problem.used[t], residual);
-  problem.noise.whiten(trial, problem.used[t], columns);
-  const LowRank low_rank(columns);
-  low_rank.whiten(residual);
-  return problem.noise.log_determinant(trial, problem.used[t]) - 0.5 * low_rank.log_determinant() -
-         0.5 * residual.squaredNorm();
+  const TrialLinear linear = linearise(problem, t, base, null.nuisances[t], {});
+  const double of_errors =
+      problem.model_error.empty() ? 0.0 : problem.model_error[t].low_rank.log_determinant();
+  return problem.noise.log_determinant(*problem.trials[t], problem.used[t]) -
+         0.5 * (of_errors + linear.log_determinant + linear.gram(0, 0));
 }
 
 }  // namespace
 
 std::vector<double> port_error_evidence(const Recordings& recordings, std::span<const double> sizes,
                                         const std::function<void(double)>& progress) {
+  Recordings clean = recordings;
+  remove_data_faults(clean.trials);
   std::vector<double> evidence;
   for (const double size : sizes) {
     progress(static_cast<double>(evidence.size()) / static_cast<double>(sizes.size()));
-    Prepared prepared = prepare(recordings);
+    Prepared prepared = prepare(clean);
     Problem& problem = prepared.problem;
     problem.port_error = size;
     const Point null = settled(problem);

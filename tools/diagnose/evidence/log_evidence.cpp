@@ -51,7 +51,8 @@ double log_prior_of_statements(const Problem& problem, const std::vector<std::si
   return static_cast<double>(contradicted) * std::log(kLimits.statement_wrong);
 }
 
-AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more) {
+AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more,
+                    std::span<const double> form_shares) {
   auto directions = parameter_directions(problem, point);
   directions.insert(directions.end(), more.begin(), more.end());
   const auto forms = laws_of(problem, point.hypothesis);
@@ -67,8 +68,8 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
     (i >= before && i < before + effects * kFormKnots ? of_form : shared).push_back(i);
   AtFit out;
   for (const auto& trial : linear) out.plain.emplace_back(trial.gram(shared, shared));
-  for (std::size_t i = 0; i < (forms.empty() ? 1 : kLimits.form_shares.size()); ++i) {
-    const MatrixXd information = form_information(effects, kLimits.form_shares[i]);
+  for (const double share : forms.empty() ? form_shares.first(1) : form_shares) {
+    const MatrixXd information = form_information(effects, share);
     AtFit::Formed& formed = out.formed.emplace_back();
     for (const auto& trial : linear) {
       auto without = without_forms(trial.gram, shared, of_form, information);
@@ -225,9 +226,14 @@ LogEvidence log_evidence_of(const Problem& problem, const Fit& fit,
 
 }  // namespace
 
-LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
+std::vector<LogEvidence> log_evidence_by_form(const Problem& problem, const Fit& fit, const AtFit& at) {
   std::vector<LogEvidence> all;
   for (const auto& formed : at.formed) all.push_back(log_evidence_of(problem, fit, at.plain, formed));
+  return all;
+}
+
+LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
+  const auto all = log_evidence_by_form(problem, fit, at);
   LogEvidence out = *std::ranges::max_element(all, {}, &LogEvidence::value);
   double mean = 0.0;
   for (const auto& one : all) mean += std::exp(one.value - out.value) / static_cast<double>(all.size());

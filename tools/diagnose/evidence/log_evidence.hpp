@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "tools/diagnose/evidence/limits.hpp"
@@ -28,13 +29,16 @@ struct AtFit {
     std::vector<Eigen::MatrixXd> grams;
     double log_determinant = 0.0;  // sum_t (ln|I + C_t F_t| + ln|I + S_t Z_t'Z_t|)
   };
-  std::vector<Formed> formed;          // One for each of Limits::form_shares; only one if there is no law.
+  std::vector<Formed> formed;          // One for each of `form_shares`; only one if there is no law.
   std::vector<Eigen::MatrixXd> plain;  // Without form errors.
 };
-AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more = {});
+AtFit linearised_at(const Problem& problem, const Point& point, const std::vector<Direction>& more = {},
+                    std::span<const double> form_shares = kLimits.form_shares);
 
 // Log evidence of a fit; `at`: linearised at its point.
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at);
+// The same for each of the form errors by itself.
+std::vector<LogEvidence> log_evidence_by_form(const Problem& problem, const Fit& fit, const AtFit& at);
 
 // Log prior of a set: the listed effects are equally probable, Limits::effects_expected of them are expected
 // to be missing. The second part is that of effects which contradict [known_to]: Limits::statement_wrong
