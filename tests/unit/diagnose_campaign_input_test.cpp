@@ -184,5 +184,28 @@ TEST(DiagnoseCampaignInput, APendulumInTheHandIsNotFreeYet) {
     EXPECT_TRUE(std::ranges::all_of(*trials[i].find("torque_Nm"), [](double v) { return v == 0.0; })) << i;
 }
 
+// A window of a swing that begins shortly before the pendulum turns: nothing holds it there.
+TEST(DiagnoseCampaignInput, APendulumThatTurnsIsNotHeld) {
+  for (const double before_s : {0.02, 0.05, 0.1, 0.2}) {
+    Trial trial;
+    for (int i = 0; i < 400; ++i) {
+      const double t = 0.005 * i;
+      trial.time_s.push_back(t);
+      trial.channels["position_rad"].push_back(0.8 * std::cos(4.0 * (t - before_s)) +
+                                               2e-4 * ((i * 7) % 5 - 2));
+    }
+    EXPECT_FALSE(let_go_s(trial)) << before_s;
+  }
+  EXPECT_TRUE(let_go_s(pendulum(0.3, 0.0)));
+}
+
+TEST(DiagnoseCampaignInput, ACureThatIsDoneIsNotAskedFor) {
+  std::vector<Trial> trials{pendulum(0.0, 0.0), pendulum(0.0, 0.0)};
+  for (auto& trial : trials) trial.channels.erase("torque_Nm");
+  auto unsaid = trials;
+  EXPECT_EQ(take_free_axes(trials, {false, false}).unstated, 0u);
+  EXPECT_EQ(take_free_axes(unsaid, {false, std::nullopt}).unstated, 1u);
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -113,7 +113,8 @@ struct OtherSensors {
 struct OtherSpread {
   double initial_position_rad = 0.0;
   double accel_bias_mps2 = 0.0;
-  std::optional<double> torque_offset_Nm;  // empty: unknown, which is not zero
+  std::optional<double> torque_offset_Nm;     // empty: unknown, which is not zero
+  std::optional<double> position_offset_rad;  // empty: the same in all trials
   double height_bias_m = 0.0;
   std::optional<double> height_scale_relative;  // empty: unknown, which is not zero
   std::optional<double> release_speed_relative;
@@ -127,6 +128,7 @@ struct OtherSpread {
     visit("initial_position_rad", self.initial_position_rad, kAmount);
     visit("accel_bias_mps2", self.accel_bias_mps2, kAmount);
     visit("torque_offset_Nm", self.torque_offset_Nm, kAmount);
+    visit("position_offset_rad", self.position_offset_rad, kAmount);
     visit("height_bias_m", self.height_bias_m, kAmount);
     visit("height_scale_relative", self.height_scale_relative, kAmount);
     visit("release_speed_relative", self.release_speed_relative, kAmount);

@@ -110,9 +110,17 @@ bool is_locked_only(const CampaignTrial& trial) {
   return axis != nullptr && axis->axis.inertia_kg_m2 == 0.0 && trial.kind != TrialKind::clamped;
 }
 
+// `name`, or "name (2)" and so on: several trials may come from one file.
+std::string name_among(const std::string& name, const std::vector<Trial>& trials) {
+  std::string own = name;
+  for (int i = 2; std::ranges::find(trials, own, &Trial::name) != trials.end(); ++i)
+    own = fmt::format("{} ({})", name, i);
+  return own;
+}
+
 void take_trial(const CampaignTrial& described, const TrialRecording& recording, Recordings& recordings) {
   Trial trial;
-  trial.name = std::filesystem::path(described.name).stem().string();
+  trial.name = name_among(std::filesystem::path(described.name).stem().string(), recordings.trials);
   trial.kind = name_of(described.kind);
   for (const auto& entry : described.setup)
     if (const auto* number = std::get_if<double>(&entry.value))
@@ -137,7 +145,9 @@ void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInpu
   if (free.without_torque > 0)
     tell(fmt::format("is not recorded in {} of {} trials: nothing is taken to drive the axis there, 0 N m",
                      free.without_torque, all),
-         "record it, or write motor_enabled = true for a trial that is driven, which is then left out");
+         free.unstated > 0
+             ? "record it, or write motor_enabled = true for a trial that is driven, which is then left out"
+             : "");
   if (free.held > 0)
     tell(fmt::format(
              "is unknown at the start of {} of {} trials, where something holds the axis, for {:.2f} s "

@@ -3,28 +3,31 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// A constant torque and, if gravity acts, an offset of the angle at which the arm hangs.
+bool hangs(const Context& c) { return c.belief.value("axis.gravity_torque_Nm") != 0.0; }
+
+// An arm that runs free hangs at another angle, and nothing turns it: a constant torque beside the angle
+// would make gravity weaker, G cos(theta_0), which is another finding.
+bool hangs_free(const Context& c) { return hangs(c) && !c.facts.is_driven; }
+
+// A constant torque, or the angle at which the arm hangs, or for a driven arm both.
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   const double typical = 0.05 * c.facts.torque_Nm;
-  std::vector<EffectParameter> all{{.name = "torque_offset_Nm",
-                                    .typical = typical,
-                                    .low = -100.0 * typical,
-                                    .high = 100.0 * typical,
-                                    .either_sign = true}};
-  if (c.belief.value("axis.gravity_torque_Nm") != 0.0)
-    all.push_back({.name = "offset_rad",
-                   .typical = 0.03,
-                   .low = -0.5,
-                   .high = 0.5,
-                   .either_sign = true,
-                   .amplitude = true});
-  return all;
+  const EffectParameter torque{.name = "torque_offset_Nm",
+                               .typical = typical,
+                               .low = -100.0 * typical,
+                               .high = 100.0 * typical,
+                               .either_sign = true};
+  EffectParameter angle{.name = "offset_rad", .typical = 0.03, .low = -0.5, .high = 0.5, .either_sign = true};
+  if (hangs_free(c)) return {angle};
+  if (!hangs(c)) return {torque};
+  angle.amplitude = true;
+  return {torque, angle};
 }
 
-void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-  const double torque = v[0];
-  edits.law(LawPort::axis, [torque](const PortState&) { return torque; });
-  if (v.size() > 1) edits.add("axis.bottom_rad", v[1]);
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  if (hangs(c)) edits.add("axis.bottom_rad", v.back());
+  if (hangs_free(c)) return;
+  edits.law(LawPort::axis, [torque = v[0]](const PortState&) { return torque; });
 }
 
 const EffectRegistration kEffect(

@@ -135,7 +135,6 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
     if (!trial.time_s.empty()) duration_s = std::max(duration_s, trial.time_s.back());
   duration_s = std::clamp(duration_s, 2.0, 10.0);
   const Axis axis(belief, edits);
-  const double range_Nm = belief.value("sensors.torque_range_Nm", 1e300);
   const double furthest_rad = largest_of(recorded, "position_rad"),
                fastest_radps = largest_of(recorded, "velocity_radps");
   // An axis that no recorded torque drives can only be let go, unless the campaign lists more: a drive is a
@@ -143,6 +142,11 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
   // a free axis is filled in as 0 where it is not recorded.
   const double strongest_recorded_Nm = largest_of(recorded, "torque_Nm");
   const bool is_driven = std::isfinite(strongest_recorded_Nm) && strongest_recorded_Nm > 0.0;
+  // Without a stated range (0) the drive can do what it did; beyond that only if numbers are free.
+  const double range_Nm = belief.value("sensors.torque_range_Nm");
+  const double most_Nm = range_Nm > 0.0                           ? 0.8 * range_Nm
+                         : is_driven && !reach.has_free_numbers() ? strongest_recorded_Nm
+                                                                  : std::numeric_limits<double>::infinity();
   for (const auto& wish : wishes(duration_s, reach)) {
     if (wish.target_rad && !is_driven && !reach.has_any_part() && !reach.knows(wish.setup.begin()->first))
       continue;
@@ -159,7 +163,7 @@ std::vector<DoableTrial> doable_motions(const std::vector<Trial>& recorded, cons
     if (!is_known && goes_beyond && !reach.has_free_numbers()) continue;
     double strongest_Nm = 0.0;
     for (const double torque : m.torque_Nm) strongest_Nm = std::max(strongest_Nm, std::abs(torque));
-    if (!(strongest_Nm < 0.8 * range_Nm)) continue;
+    if (!(strongest_Nm < most_Nm)) continue;
     const auto at = [&](const std::vector<double>& values, double t) {
       return values[std::min(values.size() - 1, static_cast<std::size_t>(t / kMotionStep_s + 0.5))];
     };

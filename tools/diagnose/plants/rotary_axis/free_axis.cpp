@@ -25,13 +25,20 @@ std::optional<double> let_go_s(const Trial& trial) {
   const double first = std::max(kFirst * farthest, kNoise * fluctuation_rms(angle)),
                second = kSecond * farthest;
   if (second < kApart * first) return std::nullopt;  // noise hides the start of the motion
-  const auto moved_s = [&](double least) {
+  const auto moved = [&](double least) {
     const auto there =
         std::ranges::find_if(angle.value, [&](double v) { return std::abs(v - start) > least; });
-    return angle.time_s[static_cast<std::size_t>(there - angle.value.begin())];
+    return static_cast<std::size_t>(there - angle.value.begin());
   };
-  const double begun_s = angle.time_s.front(), first_s = moved_s(first), second_s = moved_s(second);
-  const double held_s = first_s - (second_s - first_s) / (std::sqrt(second / first) - 1.0) - begun_s;
+  const std::size_t at_first = moved(first);
+  const double begun_s = angle.time_s.front(), first_s = angle.time_s[at_first],
+               second_s = angle.time_s[moved(second)];
+  const double direction = angle.value[at_first] > start ? 1.0 : -1.0;
+  double back = 0.0;
+  for (std::size_t i = 0; i < at_first; ++i) back = std::max(back, direction * (start - angle.value[i]));
+  const double root_0 = std::sqrt(back), root_1 = std::sqrt(first + back), root_2 = std::sqrt(second + back);
+  const double per_root_s = (second_s - first_s) / (root_2 - root_1);
+  const double held_s = first_s - begun_s - (root_1 + root_0) * per_root_s;
   // A hold counts if it lasts longer than half of the time until the first motion.
   if (held_s < 0.5 * (first_s - begun_s)) return std::nullopt;
   return first_s;
@@ -47,6 +54,7 @@ FreeAxes take_free_axes(std::vector<Trial>& trials, const std::vector<std::optio
       if (motor_on[i].value_or(anywhere)) continue;
       trial.channels["torque_Nm"].assign(trial.time_s.size(), 0.0);
       ++out.without_torque;
+      if (!motor_on[i]) ++out.unstated;
     }
     auto& torque = trial.channels["torque_Nm"];
     if (!is_silent(torque)) continue;

@@ -73,6 +73,7 @@ class RotaryTrial final : public TrialModel {
       trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
       trial_nuisances.back().may_lean = belief.numbers.contains("spread.torque_offset_Nm");
     }
+    take_zero_of_angle(!positions.empty());
     if (stretches_.empty()) return;
     add_rows(0, positions);
     add_rows(1, velocities);
@@ -84,6 +85,8 @@ class RotaryTrial final : public TrialModel {
     const auto laws = edits.at(LawPort::axis);
     Signal torque = acting_torque(edits);
     const std::size_t q = trial_nuisances.size();
+    // Key spreads follow later in the list, so count from its beginning.
+    const double zero_rad = has_zero_of_angle_ ? nuisances[has_torque_offset_ ? 1 : 0] : 0.0;
     if (has_torque_offset_)
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
@@ -91,7 +94,7 @@ class RotaryTrial final : public TrialModel {
     for (std::uint32_t b = 0; b < blocks; ++b) {
       AxisStretch stretch = begun_where_read(b, clocks);
       const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
-      stretch.position += own[kPosition] - read_too_far_rad(edits);
+      stretch.position += own[kPosition] - read_too_far_rad(edits) - zero_rad;
       stretch.velocity += own[kVelocity];
       if (own.size() > kTorque) {
         const double acting = acting_per_recorded(edits, 0.5 * (stretch.from_s + stretch.to_s));
@@ -107,6 +110,8 @@ class RotaryTrial final : public TrialModel {
         Signal signal = channel == 0 ? position : velocity;
         observe(signal, sensors_[channel], edits, channel == 0 ? "position_rad" : "velocity_radps",
                 std::span(times_).subspan(span.first, span.count), out.subspan(span.first, span.count));
+        if (channel == 0)
+          for (double& reading : out.subspan(span.first, span.count)) reading += zero_rad;
         mirror_unknown(span, clocks[channel], SensorClock(edits, "actuator"), out);
       }
     }
@@ -199,6 +204,16 @@ class RotaryTrial final : public TrialModel {
     for (std::size_t i = span.first; i < known; ++i) mirror(i, std::min(2 * known - 1 - i, end - 1));
     for (std::size_t i = end; i < span.first + span.count; ++i)
       mirror(i, end - 1 - std::min(i - end, end - 1 - known));
+  }
+
+  // The zero of the angle may differ from recording to recording: an incremental encoder starts anew, and the
+  // zero of a video is set by hand. Only an arm that hangs shows it, and only a belief knows it.
+  void take_zero_of_angle(bool is_read) {
+    const double sd = belief_.value("spread.position_offset_rad");
+    has_zero_of_angle_ = is_read && sd > 0.0 && belief_.value("axis.gravity_torque_Nm") != 0.0;
+    if (!has_zero_of_angle_) return;
+    trial_nuisances.push_back({"position_offset_rad", sd, 1e-3});
+    trial_nuisances.back().like["encoder.offset"] = 1.0;
   }
 
   // Puts the torque on the simulation's grid, as the mean over each step. Between rows it is interpolated
@@ -355,7 +370,7 @@ class RotaryTrial final : public TrialModel {
   Samples torque_;
   Signal drive_, turned_at_, angle_;  // angle_: as recorded, smoothed
   std::size_t lead_channel_ = 0;
-  bool drive_acts_ = true, has_torque_offset_ = false;
+  bool drive_acts_ = true, has_torque_offset_ = false, has_zero_of_angle_ = false;
   double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
   std::vector<AxisStretch> stretches_;
   std::vector<std::array<Span, 2>> spans_;
