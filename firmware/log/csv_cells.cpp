@@ -34,6 +34,20 @@ bool has_groups(std::string_view whole, char mark) {
   return true;
 }
 
+// True for "12,34,567", as numbers are grouped in India: groups of two, and three digits at the end. It takes
+// two commas to tell.
+bool has_indian_groups(std::string_view whole) {
+  std::size_t digits = 0, marks = 0;
+  for (auto at = whole.rbegin(); at != whole.rend(); ++at) {
+    const bool is_mark = digits == (marks == 0 ? 3 : 2) && *at == ',';
+    if (!is_mark && !is_digit(*at)) return false;
+    marks += is_mark;
+    digits = is_mark ? 0 : digits + 1;
+    if (digits > 3 || (marks > 0 && digits > 2)) return false;
+  }
+  return marks > 1 && digits > 0 && whole.front() != '0';
+}
+
 // Group separator that no locale uses as a decimal mark: no-break, narrow and thin spaces become this byte.
 constexpr char kGroup = '\x01';
 
@@ -266,6 +280,7 @@ NumberStyle with_clear_thousands(std::string_view text, NumberStyle style) {
   return style.thousands == '\0' && is_clear ? NumberStyle{style.decimal, other} : style;
 }
 
+// A minus behind the number (0.16-) and Indian groups (12,34,567.8) have no other meaning, so they are read.
 std::optional<double> number_in_cell(std::string_view text, NumberStyle style) {
   style = with_clear_thousands(text, style);
   if (style == NumberStyle{})
@@ -279,15 +294,21 @@ std::optional<double> number_in_cell(std::string_view text, NumberStyle style) {
     std::erase(rewritten, kGroup);
     text = rewritten;
   }
-  const bool negative = text.starts_with('-');
+  // The minus follows a digit: "5,-" is a price without cents.
+  const bool has_minus_behind =
+      text.size() > 1 && text.ends_with('-') && is_digit(text.front()) && is_digit(text[text.size() - 2]);
+  if (has_minus_behind) text.remove_suffix(1);
+  const bool negative = text.starts_with('-') || has_minus_behind;
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
   if (text.starts_with('-') || text.starts_with('+')) return std::nullopt;
   const auto whole_end = std::min({text.find(style.decimal), text.find('e'), text.find('E'), text.size()});
   std::string_view whole = text.substr(0, whole_end);
-  if (whole.find(',') != std::string_view::npos || whole.find('.') != std::string_view::npos ||
-      (style.thousands != '\0' && whole.find(style.thousands) != std::string_view::npos)) {
-    if (style.thousands == '\0' || !has_groups(whole, style.thousands)) return std::nullopt;
-  }
+  const bool has_marks = whole.find_first_of(",.") != std::string_view::npos ||
+                         (style.thousands != '\0' && whole.find(style.thousands) != std::string_view::npos);
+  if (has_marks && style.decimal == '.' && has_indian_groups(whole))
+    style.thousands = ',';
+  else if (has_marks && (style.thousands == '\0' || !has_groups(whole, style.thousands)))
+    return std::nullopt;
   for (const char c : whole)
     if (c != style.thousands) plain.push_back(c);
   for (const char c : text.substr(whole_end)) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/unit/calibration_bench.hpp"
+#include "tools/calibrate/tap_intervals.hpp"
 #include "tools/calibrate/timing.hpp"
 #include "tools/plant/sensors.hpp"
 
@@ -229,6 +230,18 @@ TEST(CalibrateTiming, AForeignClockThatStepsIsRefusedWithItsStep) {
       const auto& text = outcome.refusals.front().text;
       EXPECT_NEAR(std::stod(text.substr(text.find(" by ") + 4)), std::abs(step_s), 0.002) << text;
     }
+}
+
+// A recorder that lost 0.2 s of rows, with the second tap, and counts its time from the rows.
+TEST(CalibrateTiming, LostRowsAreNamedWithTheirTime) {
+  const std::vector<double> ours{0.45, 0.95, 1.45, 1.95, 2.45, 2.95};
+  const auto lost = different_taps("force.csv", ours, {2.95, 3.75, 4.25, 4.75, 5.25});
+  EXPECT_EQ(lost.reason, "taps_differ");
+  EXPECT_THAT(lost.text, ::testing::HasSubstr("at 2.950 and 3.750 s are 0.800 s apart"));
+  EXPECT_THAT(lost.text, ::testing::HasSubstr("1.000 s apart (0.200 s missing, if these are the same taps)"));
+  EXPECT_THAT(lost.cure, ::testing::HasSubstr("lost rows there and its t_s counts rows"));
+  const auto others = different_taps("force.csv", ours, {0.1, 0.83, 1.44, 2.21, 3.1});
+  EXPECT_THAT(others.text, ::testing::HasSubstr("(medians)"));
 }
 
 }  // namespace

@@ -74,6 +74,22 @@ TEST(DiagnoseDoable, MotionsStayWithinTheLimitsThatTheCampaignStates) {
   EXPECT_THAT(planned(r, reach, "frequency_Hz"), Each(Le(1.0)));
 }
 
+TEST(DiagnoseDoable, ATorqueRangeThatNobodyStatesExcludesNoMotion) {
+  auto r = swings([](double, double, double) { return 0.0; });
+  for (const double range_Nm : {0.0, 100.0}) {
+    r.belief.numbers["sensors.torque_range_Nm"] = range_Nm;
+    EXPECT_THAT(planned(r, reach_of(r).with_free_numbers(), "amplitude_rad"), Not(IsEmpty())) << range_Nm;
+  }
+  // Without free numbers the largest recorded torque is the limit.
+  r.belief.numbers["sensors.torque_range_Nm"] = 0.0;
+  r.available["amplitude_rad"] = {{100.0}, false, {}};
+  r.available["frequency_Hz"] = {{3.0}, false, {}};
+  EXPECT_THAT(planned(r, reach_of(r), "frequency_Hz"), IsEmpty());
+  EXPECT_THAT(planned(r, reach_of(r).with_free_numbers(), "frequency_Hz"), Not(IsEmpty()));
+  r.belief.numbers["sensors.torque_range_Nm"] = 1e-9;
+  EXPECT_THAT(planned(r, reach_of(r).with_free_numbers(), "amplitude_rad"), IsEmpty());
+}
+
 NextTrial low_drop(double height_m) {
   NextTrial next;
   next.purpose = "split";

@@ -17,7 +17,10 @@ TEST(DiagnoseNonePlanned, NamesTheKeysThatAreMissingOrSaysThatNoneIs) {
   for (const char* key : {"speed_radps", "position_rad", "release_position_rad"})
     available[key] = {{0.1}, false, {}};
   EXPECT_THAT(why_none_is_planned(PlantKind::rotary_axis, Reach({}, available, {})),
-              HasSubstr("no trial within what [available] lists"));
+              AllOf(HasSubstr("exclude every trial that is planned for this plant"),
+                    HasSubstr("\"release\", \"sine\", \"chirp\" or \"ramp\"")));
+  EXPECT_THAT(why_none_is_planned(PlantKind::rotary_axis, Reach({}, available, {}), "needs position_rad"),
+              AllOf(HasSubstr("can be simulated: needs position_rad"), Not(HasSubstr("exclude"))));
 }
 
 }  // namespace

@@ -102,5 +102,18 @@ TEST(PressLimits, AForceThatVariesInTheAirIsOfSomethingElse) {
   EXPECT_TRUE(read_campaign(plate, twice).recording.usable());
 }
 
+// A body under a parachute that is recorded from 27 m/s on.
+TEST(FallLimits, AFallIsAsFastAsItsReleaseIsSaidToBe) {
+  std::string text = "t_s,height_m\n";
+  for (int i = 0; i < 100; ++i) text += fmt::format("{:.2f},{:.3f}\n", 0.1 * i, 2500.0 - 2.7 * i);
+  const std::string body = "mass_kg = 22.8\ndiameter_m = 0.15\ndensity_kg_per_m3 = 1.0\n";
+  const auto unsaid = read_campaign(head(body), text);
+  EXPECT_THAT(unsaid.text, HasSubstr("faster than a throw of 15 m/s"));
+  const auto said = read_campaign(head(body + "release_speed_mps = 27.0\n"), text);
+  EXPECT_EQ(said.text.find("faster than"), std::string::npos) << said.text;
+  const auto too_fast = read_campaign(head(body + "release_speed_mps = 16.0\n"), text);
+  EXPECT_THAT(too_fast.text, HasSubstr("1.5 times the stated release speed of 16 m/s"));
+}
+
 }  // namespace
 }  // namespace sandhopper

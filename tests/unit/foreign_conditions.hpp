@@ -69,12 +69,14 @@ struct ForeignCondition {
   CampaignPlant plant;
   bool is_usable;                    // true: then the numbers must be right
   std::vector<std::string> names{};  // names that the user gives to the import
+  bool is_as_written = false;        // usable with its own numbers, and the words say what is in doubt
 };
 std::vector<ForeignCondition> conditions_of_times();
 std::vector<ForeignCondition> conditions_of_cells();
 std::vector<ForeignCondition> conditions_of_tables();
 std::vector<ForeignCondition> conditions_of_units();
 std::vector<ForeignCondition> conditions_of_samples();
+std::vector<ForeignCondition> conditions_of_sampling();
 std::vector<ForeignCondition> conditions_of_clocks();
 std::vector<ForeignCondition> conditions_of_texts();
 

@@ -72,40 +72,41 @@ std::vector<ForeignCondition> conditions_of_names() {
 }
 
 std::vector<ForeignCondition> conditions_of_digits() {
-  return {
-      {"points between the thousands of whole numbers",
-       plate("Time (ms);Force (mN);Depth (um)",
-             [](auto r) {
-               return fmt::format("{};{};{}", whole_in_groups(1000 * r.t_s, '.'),
-                                  whole_in_groups(1000 * r.force_N, '.'),
-                                  whole_in_groups(1000 * r.depth_mm, '.'));
-             }),
-       intruder, false},
-      {"commas between thousands from 1000 on",
-       plate(
-           "Time (ms),Force (N),Depth (mm)",
-           [](auto r) {
-             return fmt::format("\"{}\",{:.3f},{:.3f}", whole_in_groups(10.0 * r.i, ','), r.force_N,
-                                r.depth_mm);
-           },
-           180),
-       intruder, false},
-      {"digits in groups of two",
-       plate(
-           "Time (us),Force (N),Depth (mm)",
-           [](auto r) { return fmt::format("\"{},00,000\",{:.3f},{:.3f}", r.i + 1, r.force_N, r.depth_mm); }),
-       intruder, false},
-      {"a minus behind the number",
-       plate("Time (s),Force (N),Position (mm)",
-             [](auto r) { return fmt::format("{:.1f},{:.3f},{:.3f}-", r.t_s, r.force_N, r.depth_mm + 0.1); }),
-       intruder, false},
-      {"a negative number in brackets",
-       plate(
-           "Time (s),Force (N),Position (mm)",
-           [](auto r) { return fmt::format("{:.1f},{:.3f},({:.3f})", r.t_s, r.force_N, r.depth_mm + 0.1); }),
-       intruder, false},
-      {"digits of full width", plate(kNamesInSi, [](auto r) { return in_full_width(si(r)); }), intruder,
-       true}};
+  return {{"points between the thousands of whole numbers",
+           plate("Time (ms);Force (mN);Depth (um)",
+                 [](auto r) {
+                   return fmt::format("{};{};{}", whole_in_groups(1000 * r.t_s, '.'),
+                                      whole_in_groups(1000 * r.force_N, '.'),
+                                      whole_in_groups(1000 * r.depth_mm, '.'));
+                 }),
+           intruder, false},
+          {"commas between thousands from 1000 on",
+           plate(
+               "Time (ms),Force (N),Depth (mm)",
+               [](auto r) {
+                 return fmt::format("\"{}\",{:.3f},{:.3f}", whole_in_groups(10.0 * r.i, ','), r.force_N,
+                                    r.depth_mm);
+               },
+               180),
+           intruder, false},
+          {"digits in groups of two",
+           plate("Time (us),Force (N),Depth (mm)",
+                 [](auto r) {
+                   return fmt::format("\"{},00,000\",{:.3f},{:.3f}", r.i + 1, r.force_N, r.depth_mm);
+                 }),
+           intruder, true},
+          {"a minus behind the number",
+           plate("Time (s),Force (N),Position (mm)",
+                 [](auto r) { return fmt::format("{:.1f},{:.3f},{:.3f}-", r.t_s, r.force_N, r.depth_mm); }),
+           intruder, true},
+          {"a negative number in brackets",
+           plate("Time (s),Force (N),Position (mm)",
+                 [](auto r) {
+                   return fmt::format("{:.1f},{:.3f},({:.3f})", r.t_s, r.force_N, r.depth_mm + 0.1);
+                 }),
+           intruder, false},
+          {"digits of full width", plate(kNamesInSi, [](auto r) { return in_full_width(si(r)); }), intruder,
+           true}};
 }
 
 std::vector<ForeignCondition> conditions_of_units_elsewhere() {

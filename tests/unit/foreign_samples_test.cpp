@@ -113,6 +113,24 @@ TEST(Cells, AClearSignBetweenThousandsIsReadWhereNoneWasSeenBefore) {
   EXPECT_FALSE(number_in_cell("10.07,59", comma));
 }
 
+TEST(Cells, AMinusBehindAndIndianGroupsAreRead) {
+  const NumberStyle comma{',', '\0'}, point{'.', '\0'}, grouped{'.', ','};
+  EXPECT_EQ(number_in_cell("0.16-", point), -0.16);
+  EXPECT_EQ(number_in_cell("1.234,5-", comma), -1234.5);
+  for (const auto* text : {"-", "1--", "1e-", "-0.16-", "2023-09-", "A-"})
+    EXPECT_FALSE(number_in_cell(text, point)) << text;
+  EXPECT_FALSE(number_in_cell("5,-", comma)) << "a price without cents";
+  EXPECT_FALSE(number_in_cell("5.-", point));
+  for (const auto style : {point, grouped}) {
+    EXPECT_EQ(number_in_cell("12,34,567.8", style), 1234567.8);
+    EXPECT_EQ(number_in_cell("-1,00,000", style), -100000.0);
+    for (const auto* text : {"1,00", "10,20,30", "1,000,00", "123,45,678", "0,12,345", "1,0,000", ",00,000"})
+      EXPECT_FALSE(number_in_cell(text, style)) << text;
+  }
+  EXPECT_FALSE(number_in_cell("1,00,000", comma));
+  EXPECT_FALSE(number_in_cell("1,234", point)) << "may be 1.234";
+}
+
 // A free pendulum; from row 200 on its zero is another one by `step_rad`.
 std::string pendulum(double step_rad) {
   std::string text = "t_s,position_rad\n";

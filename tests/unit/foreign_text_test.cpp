@@ -250,11 +250,11 @@ TEST(ForeignText, RowsInTheOrderOfTheAlphabetAreNamed) {
 
 TEST(ForeignText, ACellThatIsNoNumberHasTheCureOfItsKind) {
   for (const auto& [cell, cure] :
-       {std::pair{"0.16-", "stands behind the number"},
-        std::pair{"(0.16)", "brackets mean a negative number"}, std::pair{"1,00,000", "Indian way"},
-        std::pair{"12,34,567.5", "Indian way"}, std::pair{"1,234,567", "thousands = \",\""},
-        std::pair{"1,000", "thousands = \",\""}, std::pair{"1,5", "decimal = \",\""},
-        std::pair{"12 N", "write the unit into"}, std::pair{"x", "leave the cell"}}) {
+       {std::pair{"0,16-", "decimal = \",\""}, std::pair{"(0.16)", "brackets mean a negative number"},
+        std::pair{"1,00,000", "Indian way"}, std::pair{"12,34,567.5", "Indian way"},
+        std::pair{"1,234,567", "thousands = \",\""}, std::pair{"1,000", "thousands = \",\""},
+        std::pair{"1,5", "decimal = \",\""}, std::pair{"12 N", "write the unit into"},
+        std::pair{"x", "leave the cell"}}) {
     const CsvIssue issue{.text = fmt::format("\"{}\" is not a number", cell),
                          .fault = CsvFault::not_a_number};
     EXPECT_THAT(cure_for_cells(issue, ';'), HasSubstr(cure)) << cell;

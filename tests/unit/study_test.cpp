@@ -32,6 +32,28 @@ TEST(StudyPage, CarriesEveryItemAndAsksForNothing) {
   EXPECT_THAT(page, Not(HasSubstr("{{")));
 }
 
+TEST(StudyPage, ShowsItsTextAndTablesWithoutScripts) {
+  Study study{
+      .title = "Beads", .verdict = "One effect is missing.", .warnings = {"Two trials were left out."}};
+  study.answers.push_back({.heading = "Where",
+                           .lines = {{StudyAnswer::Style::lead, "the bed"}},
+                           .bars = {{.label = "with", .share = 0.5, .text = "1.2 times the noise"}}});
+  study.sections.push_back(
+      {.title = "Depth",
+       .items = {std::string("</noscript><b>"),
+                 StudyTable{.columns = {"trial", "k, N/m"}, .rows = {{"001", "1500"}}, .note = "of 9 trials"},
+                 StudyFigure{.title = "Force", .x_label = "depth, mm", .y_label = "force, N"}}});
+  const std::string page = study_page(study);
+  const auto begin = page.find("<noscript>\n"), end = page.find("</noscript>", begin);
+  ASSERT_NE(begin, std::string::npos);
+  const auto text = page.substr(begin, end - begin);
+  for (const auto* part :
+       {"One effect is missing.", "Two trials were left out.", "<h3>Where</h3>", "<p>the bed</p>",
+        "<p>with: 1.2 times the noise</p>", "<th>k, N/m</th>", "<td>1500</td>", "of 9 trials",
+        "&lt;/noscript>&lt;b>", "Figure: Force (force, N over depth, mm). It needs JavaScript."})
+    EXPECT_THAT(text, HasSubstr(part));
+}
+
 TEST(StudyPage, FifteenTrialsLookDifferentByMoreThanAShade) {
   std::set<std::tuple<std::string, bool, bool>> lines;
   for (std::size_t i = 0; i < 15; ++i) {

@@ -14,6 +14,7 @@
 #include "tools/calibrate/foreign_time.hpp"
 #include "tools/calibrate/line.hpp"
 #include "tools/calibrate/tap_alignment.hpp"
+#include "tools/calibrate/tap_intervals.hpp"
 #include "tools/calibrate/taps.hpp"
 
 namespace sandhopper::calibrate {
@@ -140,15 +141,6 @@ Refusal refusal_of(const ClockStep& step, const std::string& name) {
       "alone"};
 }
 
-// Median time between neighbouring taps.
-double interval_s(const std::vector<double>& taps) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < taps.size(); ++i) steps.push_back(taps[i] - taps[i - 1]);
-  if (steps.empty()) return 0.0;
-  std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
-  return steps[steps.size() / 2];
-}
-
 TapTimes times_of(const std::vector<double>& taps, const Series& signal) {
   return {taps, signal.time_s.front(), signal.time_s.back()};
 }
@@ -175,11 +167,7 @@ std::optional<double> coarse_offset(const TapTimes& ours, const ForeignRecording
     return std::nullopt;
   }
   if (alignments.empty()) {
-    refusals.push_back({"taps_differ",
-                        fmt::format("{} has taps at other intervals: {:.3f} s from tap to tap, ours {:.3f} s "
-                                    "(medians)",
-                                    foreign.name, interval_s(taps), interval_s(ours.tap_s)),
-                        "see that both recordings are of the same taps, and that t_s is in seconds"});
+    refusals.push_back(different_taps(foreign.name, ours.tap_s, taps));
     return std::nullopt;
   }
   if (const auto rivals = rivals_of_first(alignments); !rivals.empty()) {
@@ -221,8 +209,14 @@ void calibrate_clock(const Series& reference, const std::vector<double>& taps, c
   clock = ForeignClock{line.intercept, ci95, line.slope, mean.value};
   Delays residuals{common, line.residual};
   out.sections.front().items.emplace_back(figure_of(residuals, TrialMean{}, foreign.name));
-  out.notes.push_back(fmt::format("{}: t_recording = t + {:.6f} s (+- {:.6f} s), its clock runs {:+.1f} ppm",
-                                  foreign.name, line.intercept, ci95, -1e6 * line.slope));
+  out.notes.push_back(fmt::format("{}: t_recording = t {} {:.6f} s (+- {:.6f} s), its clock runs {:+.1f} ppm",
+                                  foreign.name, line.intercept < 0.0 ? "-" : "+", std::abs(line.intercept),
+                                  ci95, -1e6 * line.slope));
+  double squares = 0.0;
+  for (const double left : line.residual) squares += left * left;
+  if (!line.residual.empty())
+    out.residual_rms =
+        std::max(out.residual_rms, std::sqrt(squares / static_cast<double>(line.residual.size())));
   if (ci95 > setup.max_foreign_ci95_s)
     out.refusals.push_back({"interval_too_wide",
                             fmt::format("the clock of {} is known to {:.3f} ms only, {:.3f} ms are asked for",

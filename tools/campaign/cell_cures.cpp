@@ -35,10 +35,7 @@ bool are_groups(const std::vector<std::size_t>& lengths, std::size_t inner) {
 }
 
 std::string cure_for_text(std::string_view cell, char separator) {
-  if (cell.ends_with('-') && is_plain_number(cell.substr(0, cell.size() - 1)))
-    return "if the minus stands behind the number write it in front, as in -0.16, or choose another format "
-           "of "
-           "numbers when exporting";
+  if (cell.ends_with('-') && is_plain_number(cell.substr(0, cell.size() - 1))) cell.remove_suffix(1);
   if (cell.starts_with('(') && cell.ends_with(')') && is_plain_number(cell.substr(1, cell.size() - 2)))
     return "if brackets mean a negative number, as in accounting, format the cells as plain numbers, -0.16, "
            "before saving";

@@ -79,26 +79,34 @@ class FallChecker {
   bool in_liquid() const { return belief_.medium.density_kg_per_m3 > 100.0; }
 
   bool check_speed() {
-    constexpr double kThrow_mps = 15.0;
+    constexpr double kThrow_mps = 15.0, kStated = 1.5;  // A stated release speed may be a third too small.
+    const double release_mps = std::abs(trial_.number("release_speed_mps").value_or(0.0));
+    const double start_mps = std::max(kThrow_mps, kStated * release_mps);
     const auto& first = all_.front();
     for (const auto& sample : all_) {
       const double t = sample.t_s - first.t_s, way = std::abs(sample.height_m - first.height_m);
-      if (t < 0.05 || way <= kThrow_mps * t + std::max(belief_.gravity_mps2, 10.0) * t * t) continue;
-      add(fmt::format("changes by {:.4g} m within {:.3g} s, faster than a throw of 15 m/s and a fall", way,
-                      t),
+      if (t < 0.05 || way <= start_mps * t + std::max(belief_.gravity_mps2, 10.0) * t * t) continue;
+      const auto limit = start_mps > kThrow_mps
+                             ? fmt::format("1.5 times the stated release speed of {:.3g} m/s", release_mps)
+                             : "a throw of 15 m/s";
+      add(fmt::format("changes by {:.4g} m within {:.3g} s, faster than {} and a fall", way, t, limit),
           speed_cure());
       return true;
     }
     return false;
   }
 
-  // The first part of the way that is a parabola: what follows may be a landing or a liquid.
+  // The first part of the way that is a parabola: what follows may be a landing or a liquid. Offer only units
+  // that make the body slower: a braked body accelerates little, so its ratio to gravity may match a unit by
+  // chance.
   std::string speed_cure() const {
     const auto samples = way();
     for (const std::size_t parts : {1U, 2U, 4U, 8U}) {
       const auto curve = parabola_through(samples.first(samples.size() / parts));
       if (!curve || curve->share < 0.995) continue;
-      if (const auto unit = unit_behind(-curve->acceleration / gravity())) return unit->cure;
+      const double too_large = -curve->acceleration / gravity();
+      if (too_large <= 1.0) continue;
+      if (const auto unit = unit_behind(too_large)) return unit->cure;
     }
     return "";
   }

@@ -2,18 +2,22 @@
 
 #include "tools/campaign/axis_torque_check.hpp"
 #include "tools/campaign/clock_checks.hpp"
+#include "tools/campaign/depth_unit_check.hpp"
 #include "tools/campaign/fall_accel_check.hpp"
 #include "tools/campaign/fall_check.hpp"
 #include "tools/campaign/fall_limits.hpp"
 #include "tools/campaign/gravity_check.hpp"
 #include "tools/campaign/hopper_check.hpp"
+#include "tools/campaign/interpolated_samples.hpp"
 #include "tools/campaign/lost_forces.hpp"
+#include "tools/campaign/lost_frames.hpp"
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/press_speed_check.hpp"
 #include "tools/campaign/rate_check.hpp"
 #include "tools/campaign/sample_times.hpp"
 #include "tools/campaign/sensor_signs.hpp"
 #include "tools/campaign/surface_check.hpp"
+#include "tools/campaign/surface_onset.hpp"
 #include "tools/campaign/value_steps.hpp"
 
 namespace sandhopper {
@@ -21,8 +25,10 @@ namespace sandhopper {
 void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places) {
   check_held_samples(recording, places);
+  check_interpolated(recording, places);
   check_lost_forces(recording, places);
   check_plausible(recording, campaign, trial, places);
+  check_depth_unit(recording, campaign, trial, places);
   check_rates(recording, places);
   check_gravity(recording, places);
   check_falls(recording, campaign, trial, places);
@@ -32,9 +38,11 @@ void check_samples(TrialRecording& recording, const Campaign& campaign, const Ca
   check_hopper(recording, campaign, trial, places);
   if (!check_fall_acceleration(recording, campaign, trial, places))
     check_signs(recording, campaign, trial, places);
-  check_surface(recording, campaign, trial, places);
+  const double surface_m = check_surface_onset(recording, campaign, trial, places);
+  check_surface(recording, campaign, trial, places, surface_m);
   check_value_steps(recording, places);
   check_clock_steps(recording, places);
+  check_lost_frames(recording, places);
 }
 
 }  // namespace sandhopper

@@ -112,12 +112,30 @@ class SignChecker {
     if (campaign_.plant == CampaignPlant::falling_body) check_weightless(channel);
   }
 
-  // An axis across the fall reads little at rest, too. No throw of a laboratory is weightless for longer than
-  // t = 2 v / g with 15 m/s, or than a fall from the stated height.
+  static std::string weightless_cure(const UsedColumn* column) {
+    const std::string other = "name the column of the axis along the fall (9.8 m/s2 at rest)";
+    if (column == nullptr) return other;
+    if (column->offset != 0.0)
+      return fmt::format("{}; if the values are right, confirm them in [columns]: {}", other,
+                         confirming_line(*column));
+    auto with_gravity = *column;
+    with_gravity.offset = kGravity_mps2;
+    return fmt::format(
+        "{}; or, if gravity was taken out, write {} into [columns]; if the values are right, "
+        "confirm them there: {}",
+        other, confirming_line(with_gravity), confirming_line(*column));
+  }
+
+  // An axis across the fall reads little at rest, too. No throw is weightless for longer than t = 2 v / g, v
+  // the stated release speed or a laboratory's 15 m/s, or than a fall from the stated height.
   void check_weightless(std::string_view channel) {
-    constexpr double kThrow_s = 2.0 * 15.0 / 9.81, kLittle_mps2 = 0.5 * 9.81;
+    constexpr double kThrow_mps = 15.0, kLittle_mps2 = 0.5 * kGravity_mps2;
     const double height_m = trial_.number("release_height_m").value_or(0.0);
-    const double most_s = height_m > 0.0 ? 2.0 * std::sqrt(2.0 * height_m / 9.81) + kShortHold_s : kThrow_s;
+    const double speed_mps = std::abs(trial_.number("release_speed_mps").value_or(0.0));
+    const double fall_s =
+        height_m > 0.0 ? 2.0 * std::sqrt(2.0 * height_m / kGravity_mps2) + kShortHold_s : 0.0;
+    const double throw_s = 2.0 * std::max(kThrow_mps, speed_mps) / kGravity_mps2;
+    const double most_s = height_m > 0.0 && speed_mps <= kThrow_mps ? fall_s : fall_s + throw_s;
     const auto values = recording_.channel(channel);
     double from_s = NAN, longest_s = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -134,8 +152,7 @@ class SignChecker {
                  fmt::format("reads less than half of gravity for {:.3g} s on end, and no body falls so long "
                              "here: its axis lies across the fall, or it is without gravity",
                              longest_s),
-                 "name the column of the axis along the fall (9.8 m/s2 at rest), or add offset = 9.81 if "
-                 "gravity was taken out");
+                 weightless_cure(places_.column_of(channel)));
   }
 
   // Reports a column that is an acceleration without gravity by its name (phones write it); a specific force

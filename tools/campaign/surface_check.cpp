@@ -110,10 +110,10 @@ class SurfaceChecker {
   SurfaceChecker(TrialRecording& recording, const CampaignTrial& trial, const RecordingPlaces& places)
       : recording_(recording), trial_(trial), places_(places), push_(recording) {}
 
-  void run() {
+  void run(double surface_m) {
     if (push_.depth_m.size() < kFewest || check_travel() || check_speed() || check_air()) return;
-    check_zero_of_force();
-    check_zero_of_depth();
+    if (surface_m >= 0.0) check_zero_of_force();
+    if (surface_m == 0.0) check_zero_of_depth();
   }
 
  private:
@@ -246,11 +246,11 @@ class SurfaceChecker {
 double untared_force_N(const TrialRecording& recording) { return Push(recording).untared_N(); }
 
 void check_surface(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
-                   const RecordingPlaces& places) {
+                   const RecordingPlaces& places, double surface_m) {
   const bool pushes = trial.kind == TrialKind::intrusion || trial.kind == TrialKind::press;
   if (campaign.plant != CampaignPlant::intruder || !pushes) return;
   if (!recording.has("force_N") || !recording.has("foot_z_m") || any_unusable(recording.findings)) return;
-  SurfaceChecker(recording, trial, places).run();
+  SurfaceChecker(recording, trial, places).run(surface_m);
 }
 
 }  // namespace sandhopper

@@ -69,12 +69,16 @@ std::string mapping_line(const UsedColumn& column) {
                      unit, column.scale, offset);
 }
 
-std::string scale_cure(const UsedColumn& column) {
+std::string confirming_line(const UsedColumn& column) {
   UsedColumn as_it_is = column;
   if (as_it_is.unit.empty()) as_it_is.unit = "raw";  // Any word: it makes the scale the user's own.
+  return mapping_line(as_it_is);
+}
+
+std::string scale_cure(const UsedColumn& column) {
   return fmt::format(
       "correct its unit or scale in [columns]; if the values are right, confirm them there: {}",
-      mapping_line(as_it_is));
+      confirming_line(column));
 }
 
 }  // namespace sandhopper

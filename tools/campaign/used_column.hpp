@@ -29,6 +29,9 @@ UsedColumn in_other_unit(UsedColumn column, double factor);
 // Its line of [columns]: force_N = { column = "F (kN)", unit = "kN", scale = 1000 }.
 std::string mapping_line(const UsedColumn& column);
 
+// The same with a unit, so that its unit and scale are the user's own statement.
+std::string confirming_line(const UsedColumn& column);
+
 // Advice for a channel with doubtful values: correct its scale, or confirm it with the line that is given.
 std::string scale_cure(const UsedColumn& column);
 

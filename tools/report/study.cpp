@@ -6,6 +6,7 @@
 
 #include "tools/report/assets.hpp"
 #include "tools/report/html.hpp"
+#include "tools/report/study_text.hpp"
 
 namespace sandhopper {
 namespace {
@@ -117,6 +118,7 @@ std::string study_page(const Study& study) {
   page = replaced(page, "{{style}}", report_assets::kStyle);
   page = replaced(page, "{{study-style}}", report_assets::kStudyStyle);
   page = replaced(page, "{{script}}", report_assets::kStudyScript);
+  page = replaced(page, "{{without-scripts}}", study_text(study));
   return replaced(page, "{{data}}", html::embedded_json(data_json(study)));
 }
 

@@ -69,9 +69,11 @@ StudyTable pooled_table(const std::vector<PooledQuantity>& pooled) {
           "never counted as independent."};
   for (const auto& q : pooled) {
     const double scale = page_scale(q.name);
-    table.rows.push_back({figure_title(q.name), figure_unit(q.name), figure_number(scale * q.value),
+    table.rows.push_back({figure_title(q.name), figure_unit(q.name),
+                          value_text(scale * q.value, scale * q.ci95_low, scale * q.ci95_high),
                           interval_text(scale * q.ci95_low, scale * q.ci95_high),
-                          figure_number(scale * q.standard_deviation), fmt::format("{}", q.trials)});
+                          value_text(scale * q.standard_deviation, 0.0, 2.0 * scale * q.standard_deviation),
+                          fmt::format("{}", q.trials)});
   }
   return table;
 }

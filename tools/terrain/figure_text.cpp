@@ -7,8 +7,14 @@
 #include <filesystem>
 
 #include "config/hint.hpp"
+#include "tools/report/digits.hpp"
 
 namespace sandhopper {
+
+std::string rounded_text(double value) {
+  // A little more than a tenth, so that a power of ten does not fall below its decade by rounding.
+  return digits_by(value, 0.1001 * std::abs(value)).value_or(figure_number(value));
+}
 
 std::string figure_number(double value) {
   if (!std::isfinite(value)) return "–";
@@ -19,7 +25,11 @@ std::string figure_number(double value) {
 
 std::string interval_text(double low, double high) {
   if (!std::isfinite(low) || !std::isfinite(high)) return "one trial: no interval";
-  return fmt::format("{} to {}", figure_number(low), figure_number(high));
+  return fmt::format("{} to {}", value_text(low, low, high), value_text(high, low, high));
+}
+
+std::string value_text(double value, double low, double high) {
+  return digits_by(value, 0.5 * (high - low)).value_or(figure_number(value));
 }
 
 std::string figure_title(std::string_view name) {

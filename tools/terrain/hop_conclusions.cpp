@@ -75,7 +75,7 @@ StudyTable treatment_table(Results results) {
       const auto mean = stiffness_of(results, way.name, definition.name);
       row.push_back(mean.trials == 0
                         ? "–"
-                        : fmt::format("{} ({}; {})", figure_number(mean.value),
+                        : fmt::format("{} ({}; {})", value_text(mean.value, mean.ci95_low, mean.ci95_high),
                                       interval_text(mean.ci95_low, mean.ci95_high), mean.trials));
     }
     table.rows.push_back(std::move(row));
@@ -203,8 +203,9 @@ std::string introduction(const PooledStiffness& pooled) {
     return fmt::format("{}; no stride here allows it (\"Trial by trial\" says why). {}", what, lines);
   return fmt::format(
       "{}: {} N/m (95 % interval of the mean {}, {} strides; sd from stride to stride {} N/m). {}", what,
-      figure_number(pooled.value_N_per_m), interval_text(pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m),
-      pooled.strides, figure_number(pooled.between_strides_sd_N_per_m), lines);
+      value_text(pooled.value_N_per_m, pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m),
+      interval_text(pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m), pooled.strides,
+      value_text(pooled.between_strides_sd_N_per_m, 0.0, 2.0 * pooled.between_strides_sd_N_per_m), lines);
 }
 
 StudySection stiffness_section(Results results, const PooledStiffness& pooled) {
@@ -233,7 +234,8 @@ std::string answer_of(const PooledStiffness& pooled) {
         "zero.",
         pooled.strides, interval);
   return fmt::format("The ground's stiffness is {} N/m, 95 % interval {} N/m (joint fit, {} strides).",
-                     figure_number(pooled.value_N_per_m), interval, pooled.strides);
+                     value_text(pooled.value_N_per_m, pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m),
+                     interval, pooled.strides);
 }
 
 }  // namespace
@@ -252,8 +254,8 @@ CampaignConclusions conclude_hops(Results results) {
     const auto mean = stiffness_of(results, way.name, "A");
     if (mean.trials == 0) continue;
     told.lines.push_back(fmt::format("  {:22} {:>6} N/m ({}; {} trials)", way.title,
-                                     figure_number(mean.value), interval_text(mean.ci95_low, mean.ci95_high),
-                                     mean.trials));
+                                     value_text(mean.value, mean.ci95_low, mean.ci95_high),
+                                     interval_text(mean.ci95_low, mean.ci95_high), mean.trials));
   }
   told.sections.push_back(stiffness_section(results, pooled));
   StudySection forces{.title = "Force and depth"};

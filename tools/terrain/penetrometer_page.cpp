@@ -126,9 +126,9 @@ StudyTable law_table(const PenetrometerFit& fit) {
         law.fit.law == ResistanceLaw::depth_power_rate || law.fit.law == ResistanceLaw::depth_power_square;
     table.rows.push_back(
         {title_of(law.fit.law) + (i == fit.chosen ? " (chosen)" : ""),
-         n ? figure_number(law.fit.exponent) : "–",
+         n ? value_text(law.fit.exponent, law.exponent.ci95_low, law.exponent.ci95_high) : "–",
          n ? interval_text(law.exponent.ci95_low, law.exponent.ci95_high) : "–",
-         b ? figure_number(law.fit.rate) : "–",
+         b ? value_text(law.fit.rate, law.rate.ci95_low, law.rate.ci95_high) : "–",
          b ? interval_text(law.rate.ci95_low, law.rate.ci95_high) : "–", figure_number(law.fit.rms),
          std::isnan(law.cross_validation) ? "–" : fmt::format("{:.1f} %", 100.0 * law.cross_validation)});
   }

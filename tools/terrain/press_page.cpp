@@ -18,7 +18,7 @@ std::string percent(double share) {
 }
 
 std::string mean_text(const TrialMean& mean, double scale) {
-  return fmt::format("{} ({})", figure_number(scale * mean.value),
+  return fmt::format("{} ({})", value_text(scale * mean.value, scale * mean.ci95_low, scale * mean.ci95_high),
                      interval_text(scale * mean.ci95_low, scale * mean.ci95_high));
 }
 
@@ -62,7 +62,7 @@ StudyTable law_table(const IntrusionFit& fit) {
                           fmt::format("F = {}", text.equation), text.shape,
                           mean_text(law.stiffness_per_area_N_per_m3, 1e-6),
                           law.fit.law == DepthLaw::linear ? "–" : mean_text(law.shape, text.scale),
-                          figure_number(law.fit.rms_N), figure_number(law.cross_validation_N)});
+                          rounded_text(law.fit.rms_N), rounded_text(law.cross_validation_N)});
   }
   table.note = fmt::format(
       "K and shape: mean over trials fitted one by one, Student's t with {} degrees of freedom. Left out: "
@@ -77,7 +77,7 @@ StudyTable prediction_table(const IntrusionFit& fit) {
   for (const double depth_m : kPredictedDepths_m)
     table.columns.push_back(fmt::format("error at {:.0f} mm", 1e3 * depth_m));
   const auto add = [&](const LawResult& law, const std::string& name) {
-    std::vector<std::string> row{name, figure_number(law.heldout_rms_N)};
+    std::vector<std::string> row{name, rounded_text(law.heldout_rms_N)};
     for (const double error : law.relative_error) row.push_back(percent(error));
     table.rows.push_back(std::move(row));
   };
@@ -97,9 +97,9 @@ StudyTable trial_table(const LawResult& chosen) {
     table.columns.push_back(fmt::format("predicted / measured at {:.0f} mm, N", 1e3 * depth_m));
   for (const auto& p : chosen.predictions) {
     std::vector<std::string> row{trial_label(p.trial), figure_number(1e3 * p.diameter_m),
-                                 figure_number(p.rms_N)};
+                                 rounded_text(p.rms_N)};
     for (std::size_t i = 0; i < p.measured_N.size(); ++i)
-      row.push_back(fmt::format("{} / {}", figure_number(p.predicted_N[i]), figure_number(p.measured_N[i])));
+      row.push_back(fmt::format("{} / {}", rounded_text(p.predicted_N[i]), rounded_text(p.measured_N[i])));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -202,7 +202,7 @@ std::string rig_text(const RigResult& rig) {
         " On the stop: {} µm/N above a quarter of the greatest force, after a toe of {} mm; relieved at {} "
         "N/m.",
         mean_text(rig.stop_compliance_m_per_N, 1e6), mean_text(rig.toe_m, 1e3),
-        figure_number(rig.stop_unloading_N_per_m.value));
+        mean_text(rig.stop_unloading_N_per_m, 1.0));
   if (rig.bed_unloading_N_per_m.trials > 0)
     text += fmt::format(" In the bed: relieved at {} N/m.", mean_text(rig.bed_unloading_N_per_m, 1.0));
   return text;
@@ -212,7 +212,7 @@ std::string area_text(const std::vector<AreaExponent>& area) {
   std::string text;
   for (const auto& a : area)
     text += fmt::format("{}{:.0f} mm: {} ({})", text.empty() ? "" : "; ", 1e3 * a.depth_m,
-                        figure_number(a.exponent.value),
+                        value_text(a.exponent.value, a.exponent.ci95_low, a.exponent.ci95_high),
                         interval_text(a.exponent.ci95_low, a.exponent.ci95_high));
   return fmt::format("Force in proportion to A^p at one depth{}: p at {}.",
                      area.front().from_held_out ? " (found afterwards, with the held-out plates)" : "", text);

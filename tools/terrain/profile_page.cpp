@@ -103,10 +103,10 @@ StudyTable group_table(const CurveGroup& group) {
                        "over depth. Tangent: slope of the curve at that depth."};
   for (const double depth_m : told_depths_m(group)) {
     const auto& p = *group.at(depth_m);
-    table.rows.push_back({short_number(1e3 * depth_m), fmt::format("{}", p.force_N.trials),
-                          pooled_text(p.force_N), new_trial_text(p.force_N),
-                          pooled_text(p.force_N, 1.0 / p.depth_m), pooled_text(p.tangent_N_per_m),
-                          p.force_N.trials > 1 ? short_number(p.force_N.between_sd) : "–"});
+    table.rows.push_back(
+        {short_number(1e3 * depth_m), fmt::format("{}", p.force_N.trials), pooled_text(p.force_N),
+         new_trial_text(p.force_N), pooled_text(p.force_N, 1.0 / p.depth_m), pooled_text(p.tangent_N_per_m),
+         p.force_N.trials > 1 ? value_text(p.force_N.between_sd, 0.0, 2.0 * p.force_N.between_sd) : "–"});
   }
   return table;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "tools/report/digits.hpp"
 #include "tools/terrain/figure_text.hpp"
 #include "tools/terrain/mean_json.hpp"
 #include "tools/terrain/rigid_ground.hpp"
@@ -45,9 +46,15 @@ std::string trials_text(std::size_t trials) {
   return fmt::format("{} trial{}", trials, trials == 1 ? "" : "s");
 }
 
+// To two digits of half the interval.
+std::string in_interval(double value, double low, double high) {
+  return digits_by(value, 0.5 * (high - low)).value_or(short_number(value));
+}
+
 std::string limits(double low, double high, double scale) {
   if (!std::isfinite(low) || !std::isfinite(high)) return "[one trial: none]";
-  return fmt::format("[{}, {}]", short_number(scale * low), short_number(scale * high));
+  return fmt::format("[{}, {}]", in_interval(scale * low, scale * low, scale * high),
+                     in_interval(scale * high, scale * low, scale * high));
 }
 
 std::string mm_text(double depth_m) {
@@ -134,7 +141,8 @@ std::vector<double> told_depths_m(const CurveGroup& group) {
 
 std::string pooled_text(const PooledValue& v, double scale) {
   if (std::isnan(v.value)) return "–";
-  return fmt::format("{} {}", short_number(scale * v.value), limits(v.mean_low, v.mean_high, scale));
+  return fmt::format("{} {}", in_interval(scale * v.value, scale * v.mean_low, scale * v.mean_high),
+                     limits(v.mean_low, v.mean_high, scale));
 }
 
 std::string new_trial_text(const PooledValue& v, double scale) {
@@ -225,8 +233,11 @@ std::string profile_answer(const CurveGroup& g) {
   return fmt::format(
       "At {} mm of depth the ground bears {} N, 95 % interval {} to {} N ({}, mean of {}); "
       "one new trial: {} to {} N.",
-      mm_text(told), short_number(force.value), short_number(force.mean_low), short_number(force.mean_high),
-      foot, trials_text(force.trials), short_number(force.new_low), short_number(force.new_high));
+      mm_text(told), in_interval(force.value, force.mean_low, force.mean_high),
+      in_interval(force.mean_low, force.mean_low, force.mean_high),
+      in_interval(force.mean_high, force.mean_low, force.mean_high), foot, trials_text(force.trials),
+      in_interval(force.new_low, force.new_low, force.new_high),
+      in_interval(force.new_high, force.new_low, force.new_high));
 }
 
 std::vector<std::string> profile_lines(const ProfileConclusion& conclusion) {

@@ -67,7 +67,8 @@ std::vector<Plate> plates_of(Results results) {
 }
 
 std::string mean_text(const TrialMean& mean) {
-  return fmt::format("{} ({})", figure_number(mean.value), interval_text(mean.ci95_low, mean.ci95_high));
+  return fmt::format("{} ({})", value_text(mean.value, mean.ci95_low, mean.ci95_high),
+                     interval_text(mean.ci95_low, mean.ci95_high));
 }
 
 double speed_of(const TrialResult& result) { return result.series.at("stroke").at(1); }
@@ -280,9 +281,10 @@ CampaignConclusions conclude_strokes(Results results) {
     list.push_back(std::move(report.json));
   }
   if (const auto law = area_law(plates); std::isfinite(law.exponent)) {
-    const auto text = fmt::format(
-        "stiffness grows with the plate's area to the power {} ({}; {} strokes)", figure_number(law.exponent),
-        interval_text(law.exponent - law.half_width, law.exponent + law.half_width), law.trials);
+    const auto text =
+        fmt::format("stiffness grows with the plate's area to the power {} ({}; {} strokes)",
+                    value_text(law.exponent, law.exponent - law.half_width, law.exponent + law.half_width),
+                    interval_text(law.exponent - law.half_width, law.exponent + law.half_width), law.trials);
     told.lines.push_back("  " + text);
     told.json["area_exponent"] = {{"value", law.exponent},
                                   {"ci95", {law.exponent - law.half_width, law.exponent + law.half_width}},

@@ -133,8 +133,10 @@ Json belief_json(const BelievedNumber& n) {
           {"unit", n.unit},
           {"said_by", n.said_by},
           {"usual_error", n.usual_error},
-          {"error_that_shows", std::isfinite(n.error_that_shows) ? Json(n.error_that_shows) : Json(nullptr)},
-          {"matters", n.matters()},
+          {"error_that_shows", std::isfinite(n.error_that_shows) && n.error_that_shows > 0.0
+                                   ? Json(n.error_that_shows)
+                                   : Json(nullptr)},
+          {"matters", n.error_that_shows > 0.0 && n.matters()},
           {"known_to", n.known_sd > 0.0 ? Json{{"sd", n.known_sd}, {"change", n.asked_for}} : Json(nullptr)}};
 }
 

@@ -118,6 +118,9 @@ std::string Where::phase_in_words() const {
 }
 
 std::string two_digits(double value) {
+  const double tens = std::pow(10.0, std::floor(std::log10(std::max(std::abs(value), 1e-300))) - 1.0);
+  if (std::abs(value) >= 99.5 && std::abs(value) < 1e6)
+    return fmt::format("{:.0f}", tens * std::round(value / tens));
   auto text = fmt::format("{:.2g}", value);
   return text.size() == 1 && text != "0" ? text + ".0" : text;
 }

@@ -9,6 +9,7 @@
 
 #include "tools/diagnose/evidence/rivals.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
+#include "tools/diagnose/model/digits.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 #include "tools/diagnose/next/bench_test.hpp"
 #include "tools/diagnose/next/choice.hpp"
@@ -61,12 +62,14 @@ void show(const Problem& problem, const TrialModel& model, const Contest::Predic
     next.by_second.push_back(at.second[rows[i]]);
   }
   const Row& row = model.rows[where];
+  const double apart = std::abs(at.second[where] - at.first[where]);
+  const auto unit = quantity_of(next.channel).unit;
   next.why = fmt::format(
-      "{} at {:.3g} s ({}): {} predicts {:.4g}, {} predicts {:.4g}; that is {:.2g} apart, with a noise of "
+      "{} at {:.3g} s ({}): {} predicts {} {}, {} predicts {} {}; that is {:.2g} {} apart, with a noise of "
       "{:.2g} {}.",
-      next.channel, row.time_s, problem.phases[row.phase], next.first, at.first[where], next.second,
-      at.second[where], std::abs(at.second[where] - at.first[where]), next.noise,
-      quantity_of(next.channel).unit);
+      next.channel, row.time_s, in_words(problem.phases[row.phase]), next.first,
+      to_digits_of(at.first[where], apart), unit, next.second, to_digits_of(at.second[where], apart), unit,
+      apart, unit, next.noise, unit);
 }
 
 // Two rivals i, j of one group.
@@ -310,7 +313,7 @@ void propose_within(const Reach& reach, const Question& q, Setups& compared, Nex
   if (planned.size() > 0 && setups == compared) return;
   compared = std::move(setups);
   if (planned.size() == 0) {
-    next.why = why_none_is_planned(q.problem.context.plant, reach);
+    next.why = why_none_is_planned(q.problem.context.plant, reach, planned.refusal());
     return;
   }
   if (!q.diagnosis.unknown.empty() && q.rest != nullptr)

@@ -22,13 +22,36 @@ std::vector<std::string> planned_keys(PlantKind plant) {
   return {};
 }
 
+// The trials that doable_*.cpp plans.
+std::string planned_trials(PlantKind plant) {
+  switch (plant) {
+    case PlantKind::falling_body:
+      return "a drop";
+    case PlantKind::rotary_axis:
+      return "a hold, or a profile \"release\", \"sine\", \"chirp\" or \"ramp\"";
+    case PlantKind::intruder:
+      return "a push with the profile \"stop_and_withdraw\", \"cycles\" or \"through\"";
+    case PlantKind::hopper:
+      return "a hop";
+  }
+  return "";
+}
+
 }  // namespace
 
-std::string why_none_is_planned(PlantKind plant, const Reach& reach) {
+std::string why_none_is_planned(PlantKind plant, const Reach& reach, const std::string& refusal) {
+  if (!refusal.empty())
+    return fmt::format("None: no trial within what was recorded and [available] lists can be simulated: {}.",
+                       refusal);
   std::string missing;
   for (const auto& key : planned_keys(plant))
     if (!reach.knows(key)) missing += (missing.empty() ? "" : ", ") + key;
-  if (missing.empty()) return "None: no trial within what [available] lists can be simulated and tells more.";
+  if (missing.empty())
+    return fmt::format(
+        "None: the words and numbers of [available], and the ranges that [sensors] states, exclude every "
+        "trial "
+        "that is planned for this plant: {}. Widen them in campaign.toml.",
+        planned_trials(plant));
   return fmt::format(
       "No trial can be planned from the set-ups of this campaign. List under [available] in campaign.toml "
       "what can be set for the next one; neither listed nor recorded: {} (guide: The recording contract).",

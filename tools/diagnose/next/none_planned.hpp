@@ -7,8 +7,8 @@
 namespace sandhopper::diagnose {
 
 // Reason why no trial within `reach` can be planned: names the set-up keys of this plant that the campaign
-// neither lists under [available] nor has recorded; if none is missing, says that nothing within it can be
-// simulated.
-std::string why_none_is_planned(PlantKind plant, const Reach& reach);
+// neither lists under [available] nor has recorded. If none is missing: `refusal`, the plant's reason for a
+// trial that cannot be simulated, or that [available] excludes every trial that is planned for this plant.
+std::string why_none_is_planned(PlantKind plant, const Reach& reach, const std::string& refusal = "");
 
 }  // namespace sandhopper::diagnose

@@ -1,7 +1,5 @@
 #include "tools/diagnose/next/planned_trials.hpp"
 
-#include <string>
-
 #include "tools/diagnose/fit/fit.hpp"
 
 namespace sandhopper::diagnose {
@@ -11,7 +9,10 @@ PlannedTrials::PlannedTrials(Problem& problem, std::vector<DoableTrial> doable)
   for (auto& one : doable) {
     std::string why;
     auto model = problem.plant->trial(one.trial, one.belief, why);
-    if (!model) continue;
+    if (!model) {
+      if (refusal_.empty()) refusal_ = why;
+      continue;
+    }
     model->add_key_spreads(one.belief);
     for (auto& row : model->rows) row.measured = 0.0;
     problem.used.emplace_back(model->rows.size(), std::uint8_t{1});

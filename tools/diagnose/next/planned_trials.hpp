@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "tools/diagnose/fit/linearise.hpp"
@@ -17,6 +18,8 @@ class PlannedTrials {
   PlannedTrials& operator=(const PlannedTrials&) = delete;
 
   std::size_t size() const { return doable_.size(); }
+  // The plant's reason for the first trial that cannot be simulated; empty if all can.
+  const std::string& refusal() const { return refusal_; }
   const DoableTrial& operator[](std::size_t i) const { return doable_[i]; }
   const TrialModel& model(std::size_t i) const { return *problem_->trials[first_ + i]; }
 
@@ -28,6 +31,7 @@ class PlannedTrials {
   Problem* problem_;
   std::size_t first_;
   std::vector<DoableTrial> doable_;
+  std::string refusal_;
 };
 
 // Like parameter_directions(), but tolerances are simulated, too: their kept derivatives belong to the point

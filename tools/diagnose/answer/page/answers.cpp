@@ -6,6 +6,7 @@
 #include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/answer/spread_text.hpp"
+#include "tools/diagnose/model/digits.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
 namespace sandhopper::diagnose {
@@ -30,8 +31,10 @@ std::string place_of(const Where& w) {
   const auto axis = quantity_of(w.coordinate);
   std::string text =
       fmt::format("{}, {}, {:.3g} to {:.3g} s", w.channel, w.phase_in_words(), w.from_s, w.to_s);
+  const double width = std::abs(w.range_high - w.range_low);
   if (!w.coordinate.empty() && w.coordinate != "t_s")
-    text += fmt::format("; {} {} to {} {}", axis.words, number(w.range_low), number(w.range_high), axis.unit);
+    text += fmt::format("; {} {} to {} {}", axis.words, to_digits_of(w.range_low, width),
+                        to_digits_of(w.range_high, width), axis.unit);
   return text + fmt::format("; {}, {}", w.share_in_words(), p_text(w.p_value));
 }
 
@@ -104,8 +107,8 @@ StudyAnswer what(const Diagnosis& d) {
     for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
       const auto q = quantity_of(d.absent[i].parameter);
       bounds += fmt::format("{}{}: {} {} {}{}", bounds.empty() ? "" : ";  ", d.absent[i].id, q.words,
-                            d.absent[i].is_lower ? "above" : "below", number(d.absent[i].value),
-                            q.unit.empty() ? "" : " " + q.unit);
+                            d.absent[i].is_lower ? "above" : "below",
+                            fmt::format("{:.2g}", d.absent[i].value), q.unit.empty() ? "" : " " + q.unit);
     }
     if (!bounds.empty())
       box.lines.emplace_back(Style::text, "Hardest to exclude: " + bounds + ". All bounds below.");
@@ -173,7 +176,7 @@ StudyAnswer how_much_better(const Diagnosis& d) {
   const auto q = quantity_of(f.channel);
   const double most = std::max({f.heldout.before, f.heldout.after, f.floor, 1e-300});
   const auto bar = [&](const char* label, double value, const char* color) {
-    box.bars.push_back({label, value / most, number(value) + " " + q.unit, color});
+    box.bars.push_back({label, value / most, fmt::format("{:.3g} {}", value, q.unit), color});
   };
   const bool changed = is_changed(d);
   box.lines.emplace_back(Style::lead, fmt::format("{}: held-out error {}", f.channel,
@@ -186,7 +189,7 @@ StudyAnswer how_much_better(const Diagnosis& d) {
       Style::quiet,
       fmt::format(
           "Root mean square{}. Noise floor: noise ({} a sample), uncertain inputs and model error together.",
-          changed ? " on trials held out of the fit" : "", number(f.noise) + " " + q.unit));
+          changed ? " on trials held out of the fit" : "", fmt::format("{:.2g} {}", f.noise, q.unit)));
   if (const auto left = remainder_text(d); !left.empty()) box.lines.emplace_back(Style::text, left);
   if (const auto before = taken_up_before(d); !before.empty()) box.lines.emplace_back(Style::text, before);
   for (const auto& noise : d.noise)
@@ -203,9 +206,11 @@ StudyAnswer what_next(const Diagnosis& d) {
   if (!d.next.is_recommended()) {
     box.lines.emplace_back(Style::lead, "No trial to recommend");
     if (!d.next.why.empty()) box.lines.emplace_back(Style::text, d.next.why);
+    if (!d.stopped_in.empty())
+      box.lines.emplace_back(Style::quiet, "Not looked at: the limit of time ended the search before.");
     return box;
   }
-  box.lines.emplace_back(Style::lead, d.next.order + ":");
+  box.lines.emplace_back(Style::lead, d.next.order);
   if (d.next.beyond_recorded)
     box.lines.emplace_back(Style::quiet, "Beyond the recorded set-ups; the campaign states no limit.");
   box.lines.emplace_back(Style::text, d.next.reason());

@@ -6,6 +6,7 @@
 
 #include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
+#include "tools/diagnose/model/digits.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
 namespace sandhopper::diagnose {
@@ -54,7 +55,7 @@ StudySection errors_section(const Diagnosis& d) {
     if (found) values.push_back(fit->heldout.after);
     values.push_back(fit->floor);
     for (const double value : values) {
-      row.push_back(number(value) + " " + unit);
+      row.push_back(fmt::format("{:.3g} {}", value, unit));
       shades.emplace_back(0.0, 0.0);
     }
     table.rows.push_back(std::move(row));
@@ -79,10 +80,10 @@ StudySection noise_section(const Diagnosis& d) {
   table.text_columns = 3;
   table.whole = true;
   const auto size = [](const SensorNoise& n, double sd) {
-    return sd > 0.0 ? number(sd) + " " + quantity_of(n.channel).unit : "";
+    return sd > 0.0 ? fmt::format("{:.3g} {}", sd, quantity_of(n.channel).unit) : "";
   };
   for (const auto& n : d.noise) {
-    table.rows.push_back({n.channel, n.said_by, n.is_raised ? n.in_words() : "as the sensor's own",
+    table.rows.push_back({n.channel, n.said_by, n.is_raised ? "raised, see below" : "as the sensor's own",
                           size(n, n.stated), size(n, n.measured), size(n, n.used),
                           n.stated > 0.0 ? fmt::format("{:.2f}", n.times()) : ""});
     table.row_marks.emplace_back(n.is_raised ? "partly" : "");
@@ -92,7 +93,11 @@ StudySection noise_section(const Diagnosis& d) {
       "sensor does. Used by the fit: what the recordings differ by from the best simulation, without model "
       "error. The noise floor that errors are compared with holds this noise, the uncertainty of recorded "
       "inputs (a depth, a time) and the model error.";
-  return {"Noise of the sensors", {table}};
+  // Beside the table: a column of sentences would be squeezed on a small screen.
+  StudySection section{"Noise of the sensors", {table}};
+  for (const auto& n : d.noise)
+    if (n.is_raised) section.items.emplace_back(fmt::format("Noise of {}: {}", n.channel, n.in_words()));
+  return section;
 }
 
 std::string name_of(const FoundEffect& e) { return e.id + (e.channel.empty() ? "" : "\n" + e.channel); }
@@ -111,8 +116,10 @@ StudyTable sizes_table(const Diagnosis& d) {
   bool remarks = false;
   for (const auto& e : d.effects)
     for (const auto& p : e.parameters) {
+      const double half = 0.5 * std::abs(p.high - p.low);
       table.rows.push_back({&p == &e.parameters.front() ? name_of(e) : "", quantity_of(p.name).label(),
-                            number(p.value), fmt::format("{} to {}", number(p.low), number(p.high)),
+                            to_digits_of(p.value, half),
+                            fmt::format("{} to {}", to_digits_of(p.low, half), to_digits_of(p.high, half)),
                             p.limit_in_words()});
       table.row_marks.push_back(mark_of(e));
       remarks = remarks || p.limit;
@@ -137,7 +144,8 @@ StudySection effects_section(const Diagnosis& d) {
   table.whole = true;
   for (const auto& e : d.effects) {
     table.rows.push_back({name_of(e), e.statement, e.equation, fmt::format("{:.2f}", e.probability),
-                          fmt::format("{:.2f}", e.heldout_gain), e.typicals > 0.0 ? number(e.typicals) : "",
+                          fmt::format("{:.2f}", e.heldout_gain),
+                          e.typicals > 0.0 ? fmt::format("{:.2g}", e.typicals) : "",
                           e.p_value < 1.0 ? fmt::format("{:.1e}", e.p_value) : ""});
     table.row_marks.push_back(mark_of(e));
   }
@@ -182,8 +190,10 @@ StudySection where_section(const Diagnosis& d) {
   constexpr std::size_t kMostRows = 15;  // A hopper has up to 84 cells; the first ones tell most.
   for (const auto& w : d.where | std::views::take(kMostRows))
     table.rows.push_back({w.channel, w.phase_in_words(), w.port, quantity_of(w.coordinate).label(),
-                          number(w.range_low), number(w.range_high), fmt::format("{:.2f}", w.share_of_excess),
-                          fmt::format("{:.1e}", w.p_value), fmt::format("{}", w.trials.size())});
+                          to_digits_of(w.range_low, w.range_high - w.range_low),
+                          to_digits_of(w.range_high, w.range_high - w.range_low),
+                          fmt::format("{:.2f}", w.share_of_excess), fmt::format("{:.1e}", w.p_value),
+                          fmt::format("{}", w.trials.size())});
   table.note =
       "Channels and phases, or thirds of a trial, in which what was found changes the recordings by more "
       "than "
@@ -202,7 +212,7 @@ StudySection absent_section(const Diagnosis& d) {
   table.text_columns = 2;
   for (const auto& b : d.absent)
     table.rows.push_back({b.id, quantity_of(b.parameter).label(),
-                          (b.is_lower ? "above " : "below ") + number(b.value),
+                          fmt::format("{} {:.2g}", b.is_lower ? "above" : "below", b.value),
                           fmt::format("{:.2g}", b.typicals)});
   table.note =
       "Bounds of what was looked for and not found: the largest size that each may have beside what was "
@@ -233,10 +243,11 @@ StudySection belief_section(const Diagnosis& d) {
     if (n.known_sd > 0.0)
       value += fmt::format(" (known to {}; beside what was found the recordings ask for {:+.2g})",
                            number(n.known_sd), n.asked_for);
-    table.rows.push_back(
-        {n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
-         std::isfinite(n.error_that_shows) ? number(n.error_that_shows) : std::string("none"),
-         n.matters() ? "yes" : ""});
+    table.rows.push_back({n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
+                          n.error_that_shows == 0.0           ? std::string("not looked at")
+                          : std::isfinite(n.error_that_shows) ? fmt::format("{:.2g}", n.error_that_shows)
+                                                              : std::string("none"),
+                          n.error_that_shows > 0.0 && n.matters() ? "yes" : ""});
   }
   table.note =
       "Every number that the answer rests on. Usual error: half a unit of the last digit that was written, "

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/answer/spread_text.hpp"
+#include "tools/diagnose/model/digits.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
 namespace sandhopper::diagnose {
@@ -26,9 +29,10 @@ StudyTable numbers_table(const Diagnosis& d) {
   for (const auto& n : d.trial_to_trial) {
     double furthest = 0.0;
     for (const auto& value : n.values) furthest = std::max(furthest, std::abs(value.after));
-    table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd), number(n.mean_before),
-                          number(n.sd_before), number(n.mean_after), number(n.sd_after),
-                          n.believed_sd > 0.0 ? number(furthest / n.believed_sd) : ""});
+    table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd),
+                          to_digits_of(n.mean_before, n.sd_before), to_digits_of(n.sd_before, n.sd_before),
+                          to_digits_of(n.mean_after, n.sd_after), to_digits_of(n.sd_after, n.sd_after),
+                          n.believed_sd > 0.0 ? fmt::format("{:.2g}", furthest / n.believed_sd) : ""});
     table.row_marks.emplace_back(n.exceeds_after() ? "bad" : "");
   }
   table.note =
@@ -51,7 +55,7 @@ StudyTable values_table(const Diagnosis& d) {
       const auto value = std::ranges::find(n.values, trial, &SpreadValue::trial);
       const bool is_there = value != n.values.end();
       const bool is_marked = is_there && value->exceeds_after;
-      row.push_back(is_there ? number(value->after) + (is_marked ? " !" : "") : "");
+      row.push_back(is_there ? to_digits_of(value->after, n.sd_after) + (is_marked ? " !" : "") : "");
       exceeds = exceeds || is_marked;
     }
     table.rows.push_back(std::move(row));
