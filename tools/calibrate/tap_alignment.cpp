@@ -9,7 +9,6 @@ namespace sandhopper::calibrate {
 namespace {
 
 constexpr std::size_t kFewestTaps = 5;
-constexpr double kSameTap_s = 0.01;
 
 // Number of taps of `one`, moved by `offset_s`, that lie within the time of `other`, with and without a
 // partner there.

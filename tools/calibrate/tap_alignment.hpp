@@ -6,6 +6,9 @@
 
 namespace sandhopper::calibrate {
 
+// Taps of two recordings that lie nearer to each other are one tap.
+inline constexpr double kSameTap_s = 0.01;
+
 // Times of taps in one recording, and the time between which it recorded.
 struct TapTimes {
   std::vector<double> tap_s;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/calibrate/tap_alignment.hpp"
+
 namespace sandhopper::calibrate {
 namespace {
-
-constexpr double kSameInterval_s = 0.01;  // as in tap_alignment.cpp
 
 // Median time between neighbouring taps.
 double median_interval_s(const std::vector<double>& taps) {
@@ -36,7 +36,7 @@ Refusal different_taps(const std::string& name, const std::vector<double>& ours_
   std::size_t strange = 0, first = 0;
   for (std::size_t i = 1; i < theirs_s.size(); ++i) {
     const double interval_s = theirs_s[i] - theirs_s[i - 1];
-    if (std::abs(nearest_interval_s(ours_s, interval_s) - interval_s) <= kSameInterval_s) continue;
+    if (std::abs(nearest_interval_s(ours_s, interval_s) - interval_s) <= kSameTap_s) continue;
     if (strange++ == 0) first = i;
   }
   if (strange == 0 || 2 * strange >= theirs_s.size() - 1)

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/campaign/sample_times.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -119,15 +121,6 @@ bool is_at_one_speed(const GridSamples& samples, const std::vector<std::size_t>&
   return most - least <= rounded * samples.digit && (is_held || highest - lowest <= kSlopes * most);
 }
 
-bool is_driven(const std::string& channel) {
-  return channel.starts_with("command_") || channel.ends_with("torque_Nm") ||
-         channel.ends_with("_current_A") || channel == "phase";
-}
-
-std::string time_between(double s) {
-  return s < 0.9995 ? fmt::format("{:.3g} ms", 1e3 * s) : fmt::format("{:.3g} s", s);
-}
-
 // Rows of the true samples: the knots' grid, or the first row of each bend.
 std::vector<bool> rows_to_keep(const std::vector<std::size_t>& knots, std::size_t grid, std::size_t count) {
   std::vector<bool> keep(count, false);
@@ -145,7 +138,7 @@ void check_interpolated(TrialRecording& recording, const RecordingPlaces& places
   if (!recording.has_time || recording.rows() < kFewest) return;
   for (auto& channel : recording.channels) {
     const GridSamples samples(channel.values, places.column_of(channel.name));
-    if (samples.values.size() < kFewest || is_driven(channel.name)) continue;
+    if (samples.values.size() < kFewest || holds_in_truth(channel.name)) continue;
     const auto knots = knots_of(samples);
     const std::size_t grid = grid_of(knots);
     const double distance = grid > 0 ? static_cast<double>(grid) : uneven_grid_of(knots);
@@ -160,7 +153,7 @@ void check_interpolated(TrialRecording& recording, const RecordingPlaces& places
              "bends only every {:.3g} rows and is straight between: it was sampled every {} ({:.3g} Hz) "
              "and filled up by straight lines; the rows between are taken for no samples, and what "
              "changes faster than {:.3g} Hz does not show",
-             distance, time_between(distance * row_s), 1.0 / (distance * row_s), 0.5 / (distance * row_s)),
+             distance, duration(distance * row_s), 1.0 / (distance * row_s), 0.5 / (distance * row_s)),
          "export the sensor's own samples, or leave the cell empty where there is no sample"});
     const auto keep = rows_to_keep(knots, grid, n);
     for (std::size_t i = 0; i < n; ++i)

@@ -7,18 +7,22 @@
 #include <limits>
 
 namespace sandhopper {
-namespace {
-
-using enum FindingSeverity;
-
-constexpr std::size_t kFewestRows = 10;
-
-// 0.002 s -> "2 ms"
 std::string duration(double s) {
   if (s < 0.9995e-3) return fmt::format("{:.3g} us", 1e6 * s);
   if (s < 0.9995) return fmt::format("{:.3g} ms", 1e3 * s);
   return fmt::format("{:.3g} s", s);
 }
+
+bool holds_in_truth(const std::string& channel) {
+  return channel.starts_with("command_") || channel.ends_with("_torque_Nm") || channel == "torque_Nm" ||
+         channel.ends_with("_current_A") || channel == "phase";
+}
+
+namespace {
+
+using enum FindingSeverity;
+
+constexpr std::size_t kFewestRows = 10;
 
 void add(TrialRecording& recording, FindingKind kind, FindingSeverity severity, const RecordingPlaces& places,
          std::size_t row, const std::string& channel, std::string what, std::string cure) {
@@ -165,12 +169,6 @@ bool drop_filled_zeros(std::vector<double>& values) {
   for (double& value : values)
     if (value == 0.0) value = std::numeric_limits<double>::quiet_NaN();
   return true;
-}
-
-// A command and the torque that it asks for hold between their samples; what is measured does not.
-bool holds_in_truth(const std::string& channel) {
-  return channel.starts_with("command_") || channel.ends_with("_torque_Nm") || channel == "torque_Nm" ||
-         channel.ends_with("_current_A") || channel == "phase";
 }
 
 // Replaces the repeats of held values by NaN. Nobody knows how old a run of another length is that comes

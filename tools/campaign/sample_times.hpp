@@ -1,8 +1,16 @@
 #pragma once
+#include <string>
+
 #include "tools/campaign/check_channels.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 namespace sandhopper {
+
+// 0.002 s -> "2 ms"
+std::string duration(double s);
+
+// A command and the torque that it asks for hold between their samples; what is measured does not.
+bool holds_in_truth(const std::string& channel);
 
 // Finds times with too few digits. Rows that share a time but differ in a channel are separate samples. If
 // they are more than a tenth of all rows, the trial is unusable; with `spread_times` the rows are instead

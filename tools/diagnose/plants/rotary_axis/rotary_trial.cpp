@@ -81,12 +81,19 @@ class RotaryTrial final : public TrialModel {
   }
 
   void predict(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const override {
+    if (!has_zero_of_angle_) return predict_readings(edits, nuisances, out);
+    Edits with_zero = edits;
+    // Key spreads follow later in the list, so count from its beginning.
+    with_zero.sensor("position_rad", SensorEdit::Kind::offset, nuisances[has_torque_offset_ ? 1 : 0]);
+    predict_readings(with_zero, nuisances, out);
+  }
+
+ private:
+  void predict_readings(const Edits& edits, std::span<const double> nuisances, std::span<double> out) const {
     const RotaryFigures f(belief_, edits);
     const auto laws = edits.at(LawPort::axis);
     Signal torque = acting_torque(edits);
     const std::size_t q = trial_nuisances.size();
-    // Key spreads follow later in the list, so count from its beginning.
-    const double zero_rad = has_zero_of_angle_ ? nuisances[has_torque_offset_ ? 1 : 0] : 0.0;
     if (has_torque_offset_)
       for (double& value : torque.values) value += nuisances[0];
     Signal position{0.0, step_s_, {}}, velocity{0.0, step_s_, {}};
@@ -94,7 +101,7 @@ class RotaryTrial final : public TrialModel {
     for (std::uint32_t b = 0; b < blocks; ++b) {
       AxisStretch stretch = begun_where_read(b, clocks);
       const auto own = nuisances.subspan(q + block_nuisances.size() * b, block_nuisances.size());
-      stretch.position += own[kPosition] - read_too_far_rad(edits) - zero_rad;
+      stretch.position += own[kPosition] - read_too_far_rad(edits);
       stretch.velocity += own[kVelocity];
       if (own.size() > kTorque) {
         const double acting = acting_per_recorded(edits, 0.5 * (stretch.from_s + stretch.to_s));
@@ -110,14 +117,11 @@ class RotaryTrial final : public TrialModel {
         Signal signal = channel == 0 ? position : velocity;
         observe(signal, sensors_[channel], edits, channel == 0 ? "position_rad" : "velocity_radps",
                 std::span(times_).subspan(span.first, span.count), out.subspan(span.first, span.count));
-        if (channel == 0)
-          for (double& reading : out.subspan(span.first, span.count)) reading += zero_rad;
         mirror_unknown(span, clocks[channel], SensorClock(edits, "actuator"), out);
       }
     }
   }
 
- private:
   // Adds the twist of the shaft to what an encoder on the motor reads.
   static void read_on_motor_side(const Edits& edits, const Signal& torque, Signal& position,
                                  Signal& velocity) {
