@@ -9,7 +9,7 @@ add_library(sandhopper_cli STATIC
   tools/cli/progress.cpp tools/cli/session.cpp tools/cli/verb.cpp ${PROJECT_BINARY_DIR}/generated/verbs.cpp)
 target_link_libraries(sandhopper_cli PUBLIC sandhopper_config nlohmann_json::nlohmann_json fmt::fmt
                                      PRIVATE CLI11::CLI11)
-sandhopper_precompile(sandhopper_cli tools/cli/verb.hpp)
+sandhopper_precompile(sandhopper_cli <fmt/format.h> <nlohmann/json.hpp> <filesystem> <fstream>)
 
 function(sandhopper_verb name summary)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "SOURCES;LIBRARIES")
