@@ -32,7 +32,8 @@ void ProfileSolver::take_friction(const Information& info) noexcept {
   friction_N_ = moment / info.friction_normal;
 }
 
-// Change of the moment if every sample of a cell increases by one newton.
+// Change of the moment if every sample of a cell increases by one newton. The last line is the depth's column, as in
+// `depend_on_contact`.
 void ProfileSolver::take_responses(const ProfileSums& sums, const Information& info) noexcept {
   using F = ProfileFeature;
   for (std::size_t s = 0; s < kProfileCells; ++s) {
@@ -45,8 +46,9 @@ void ProfileSolver::take_responses(const ProfileSums& sums, const Information& i
     response[kScale] += sum(F::motor);
     response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
     response[kSteadyDrag] += sum(F::steady_drag);
-    const double friction = sum(F::friction) / info.friction_normal;
-    for (std::size_t i = 0; i < kTerms; ++i) response[i] -= friction * info.with_friction[i];
+    const double friction = sum(F::friction) / info.friction_normal, depth = slope_N_per_m_[s] * sum(F::one);
+    for (std::size_t i = 0; i < kTerms; ++i)
+      response[i] += depth * begins_of_[i] - friction * info.with_friction[i];
   }
 }
 
@@ -55,6 +57,7 @@ void ProfileSolver::take_responses(const ProfileSums& sums, const Information& i
 void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
   if (in_crater) {
     begins_m_ = kept_errors_.mean_m;
+    begins_of_ = {};
     kept_errors_.variance_m2 += prior_.landing_depth_sd_m * prior_.landing_depth_sd_m;
     return;
   }

@@ -339,11 +339,11 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     if (pass > 0) take_inertia(info);
     integrate(info, pass + 1 == kPasses);
     take_friction(info);
+    if (pass + 1 == kPasses) take_responses(sums, info);
     take_slopes();
     if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
   }
   for (std::size_t s = 0; s < kN; ++s) misfit_[s] = misfit_with(stride_misfit_[s], s);
-  take_responses(sums, info);
   end_depth_errors(info, sums);
   keep(info);
   report(sums, stride);

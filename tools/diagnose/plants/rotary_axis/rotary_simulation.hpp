@@ -17,12 +17,14 @@ struct AxisStretch {
 struct AxisInputs {
   const Signal& torque;
   const Signal& turned_at;
+  bool is_driven = true;
 };
 
 // Simulates angle and speed over a stretch, from `lead_in_s` before it on, on the grid of the torque:
 //   J th'' = torque - G sin(th - bottom) - c tanh(th'/v_s) - b th' + laws
-// Classical Runge-Kutta steps of fourth order; shorter ones near rest, where friction is stiff. `position`
-// and `velocity` are overwritten; their memory is reused.
+// A driven axis in classical Runge-Kutta steps of fourth order, shorter ones near rest, where friction is
+// stiff; an axis that nothing drives in controlled steps. `position` and `velocity` are overwritten; their
+// memory is reused.
 void simulate_axis(const RotaryFigures& figures, const std::vector<const Law*>& laws,
                    const AxisInputs& inputs, const AxisStretch& stretch, double lead_in_s, Signal& position,
                    Signal& velocity);

@@ -108,7 +108,7 @@ class RotaryTrial final : public TrialModel {
         stretch.torque_Nm = acting * own[kTorque];
         stretch.torque_rise_Nm = acting * own[kTorqueRise];
       }
-      simulate_axis(f, laws, {torque, turned_at_}, stretch, lead_in_s_, position, velocity);
+      simulate_axis(f, laws, {torque, turned_at_, drive_acts_}, stretch, lead_in_s_, position, velocity);
       read_on_motor_side(edits, torque, position, velocity);
       read_by_angle(edits, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
