@@ -1,7 +1,8 @@
 // The map from the posterior mass of a claim to the probability that it is right (tools/diagnose/evidence/
 // calibration.hpp), fitted to the claims of calibration_claims.csv, and how a map that was fitted on the other
 // programs does on the program left out.
-//   node tools/benchmark/learn_calibration.mjs              tables, and the two maps for the header
+//   node tools/benchmark/learn_calibration.mjs              tables, and the two maps
+//   node tools/benchmark/learn_calibration.mjs --check      exit code 1 if the header holds another map of names
 //   node tools/benchmark/learn_calibration.mjs PROGRAM[:held_out]=ANSWERS=DIAGNOSES…
 //                                                           first makes calibration_claims.csv anew
 // ANSWERS is the folder `answers` of `hop conceal`, or a file {"cases": [{"name", "plant", "kind", "true_ids"}]} of
@@ -102,6 +103,9 @@ function scores(claims, stated) {
   };
 }
 
+const knotsText = (knots) =>
+  knots.map(({ mass, probability }) => `{${mass.toFixed(3)}, ${probability.toFixed(3)}}`).join(', ');
+
 const text = ({ brier, log, error }) => [brier, log, error].map((value) => value.toFixed(3)).join(' ');
 
 function tables(all, about) {
@@ -124,10 +128,23 @@ function tables(all, about) {
   const knots = fitted(learnt);
   const heldOut = claims.filter((claim) => claim.heldOut);
   if (heldOut.length > 0) row('held out', heldOut, knots);
-  console.log(`map: {${knots.map(({ mass, probability }) => `{${mass.toFixed(3)}, ${probability.toFixed(3)}}`).join(', ')}}\n`);
+  console.log(`map: {${knotsText(knots)}}\n`);
+}
+
+// Exits with 1 if calibration.hpp holds other knots than the fit.
+function check(claims) {
+  const fit = knotsText(fitted(claims.filter(({ about, heldOut }) => about === 'name' && !heldOut)));
+  const header = fs.readFileSync(new URL('../diagnose/evidence/calibration.hpp', import.meta.url), 'utf8');
+  if (header.includes(`{{{0.0, 0.0}, ${fit}}}`)) return;
+  console.error(`calibration.hpp does not hold the map of these claims: write {{{0.0, 0.0}, ${fit}}} and the number of knots`);
+  process.exit(1);
 }
 
 const sources = process.argv.slice(2);
+if (sources[0] === '--check') {
+  check(read());
+  process.exit(0);
+}
 if (sources.length > 0) measure(sources);
 const claims = read();
 tables(claims, 'name');

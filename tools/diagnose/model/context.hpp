@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +52,16 @@ struct ChannelScale {
   double grid = 0.0;            // smallest change between successive samples: the sensor's resolution
 };
 
+// Least periods of cogging per revolution: the least common multiple of slots and poles, of a motor with
+// three slots and two poles.
+inline constexpr double kFewestRipples = 6.0;
+
+// The same for recordings over this range of angles. A ripple is a law that repeats: where less than two
+// periods were seen, it is any smooth function of the angle.
+inline double fewest_ripples_over(double range_rad) {
+  return range_rad > 0.0 ? std::max(kFewestRipples, 4.0 * std::numbers::pi / range_rad) : kFewestRipples;
+}
+
 // Characteristic sizes of the plant in this campaign, from the recordings and the belief. Effects scale the
 // typical values of their parameters by them. A size that does not apply to a plant keeps its default.
 struct PlantFacts {
@@ -68,11 +80,8 @@ struct PlantFacts {
   double wetted_over_m = 0.0;                // length of a body that enters a liquid; 0: none does
   double temperature_K = 0.0;                // hottest motor above 25 C
   std::vector<double> ripple_orders{};       // candidates for periods per revolution of a torque ripple
+  double fewest_ripples = kFewestRipples;    // least number of them: `fewest_ripples_over` the angles
 };
-
-// Least periods of cogging per revolution: the least common multiple of slots and poles, of a motor with
-// three slots and two poles.
-inline constexpr int kFewestRipples = 6;
 
 // Input of an effect: from it the effect derives its parameters and their typical sizes.
 struct Context {

@@ -28,7 +28,7 @@ Context widest_context(const Campaign& campaign) {
   facts.range_of_pushes = facts.range_of_wait_s = 1.0;
   facts.floor_distance_m = facts.wetted_over_m = 0.1;
   facts.temperature_K = 10.0;
-  facts.ripple_orders = {static_cast<double>(kFewestRipples)};
+  facts.ripple_orders = {kFewestRipples};
   return context;
 }
 

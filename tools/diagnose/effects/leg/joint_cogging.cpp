@@ -4,13 +4,13 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.facts.angle_rad < 0.3) return {};
   const double typical = 0.1 * c.facts.torque_Nm;
   // The fit starts from the periods per turn found in the recordings.
   std::vector<double> orders;
   constexpr std::size_t kMost = 3;
   for (std::size_t i = 0; i < c.facts.ripple_orders.size() && i < kMost; ++i)
-    if (const double order = c.facts.ripple_orders[i]; order > 0.0) orders.push_back(order);
+    if (const double order = c.facts.ripple_orders[i]; order >= c.facts.fewest_ripples)
+      orders.push_back(order);
   if (orders.empty()) return {};
   const double likeliest = orders.front();
   const auto of_sine = [&](const char* name, bool amplitude) {
@@ -24,7 +24,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
           of_sine("cogging_cos_Nm", true),
           {.name = "cogging_periods_per_rev",
            .typical = likeliest,
-           .low = kFewestRipples,
+           .low = c.facts.fewest_ripples,
            .high = 500.0,
            .shapes = orders},
           // The second harmonic.

@@ -112,6 +112,7 @@ class Hopper final : public PlantModel {
     s.force_N = force > 0.0 ? force : 60.0;
     s.torque_Nm = std::max(0.5, 0.5 * current * world.motor.torque_constant_Nm_per_A);
     s.angle_rad = high > low ? high - low : 1.0;
+    s.fewest_ripples = fewest_ripples_over(high - low);
     auto orders = ripple_orders(trials, context.belief);
     // The believed cogging may be too small, so its order is a candidate, too.
     const double believed = context.belief.value("robot.cogging_periods_per_rev");

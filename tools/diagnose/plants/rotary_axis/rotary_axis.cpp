@@ -52,7 +52,8 @@ double torque_that_acts_Nm(const std::vector<Trial>& trials, const Belief& belie
 }
 
 // Orders of the torque ripple over the angle in the axis' balance, after a regression on friction and drive.
-std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
+std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const Belief& belief,
+                                       double fewest) {
   constexpr int kLast = 250;
   constexpr std::size_t kLeastRows = 30;  // per trial
   std::vector<double> angles, torques;
@@ -64,7 +65,7 @@ std::vector<double> axis_ripple_orders(const std::vector<Trial>& trials, const B
       for (const auto& state : balance.states) angles.push_back(std::get<AxisState>(state).angle_rad);
     }
   if (torques.size() < 100) return {};
-  return strongest_orders(angles, torques, kFewestRipples, kLast);
+  return strongest_orders(angles, torques, static_cast<int>(std::ceil(fewest)), kLast);
 }
 
 class RotaryAxis final : public PlantModel {
@@ -94,10 +95,14 @@ class RotaryAxis final : public PlantModel {
   }
 
   void describe(const std::vector<Trial>& trials, Context& context) const override {
-    double speed = 0.0, angle = 0.0;
+    double speed = 0.0, angle = 0.0, low = 1e9, high = -1e9;
     for (const auto& trial : trials) {
       const auto positions = samples_of(trial, "position_rad");
-      for (const double p : positions.value) angle = std::max(angle, std::abs(p));
+      for (const double p : positions.value) {
+        angle = std::max(angle, std::abs(p));
+        low = std::min(low, p);
+        high = std::max(high, p);
+      }
       const auto velocities = samples_of(trial, "velocity_radps");
       for (const double v : velocities.value) speed = std::max(speed, std::abs(v));
       if (velocities.empty() && positions.value.size() > 10)
@@ -125,7 +130,8 @@ class RotaryAxis final : public PlantModel {
       swift = std::max(swift, *high);
     }
     context.facts.moves = swift > kMoves * context.belief.value("axis.friction_switch_speed_radps", 0.02);
-    context.facts.ripple_orders = axis_ripple_orders(trials, context.belief);
+    context.facts.fewest_ripples = fewest_ripples_over(high - low);
+    context.facts.ripple_orders = axis_ripple_orders(trials, context.belief, context.facts.fewest_ripples);
   }
 
   std::vector<DoableTrial> doable(const std::vector<Trial>& recorded, const Belief& belief,
