@@ -95,5 +95,27 @@ TEST(DiagnoseSpread, EveryNumberOfSpreadIsListedWithItsValuesAndWhatExceeds) {
   EXPECT_EQ(d.detail == Detail::only_beyond_spread, d.verdict == Verdict::consistent);
 }
 
+// A stranger left out the noise of his heights: each trial then has a scale of its own, within 4 %. All
+// were 3.6 % too long, and the answer was "Nothing is missing".
+TEST(DiagnoseSpread, ANumberThatNobodyStatedAndThatLeansAlikeInAllTrialsIsSaid) {
+  const auto all_longer = [](double scale, bool is_stated) {
+    Recordings all = drops([](double, double, double) { return 0.0; }, 1, 8, 1.0 + scale);
+    for (auto& trial : all.trials) trial.channels.erase("accel_mps2");
+    all.belief.numbers.erase("sensors.height_noise_m");
+    if (is_stated) all.belief.numbers["spread.height_scale_relative"] = 0.04;
+    for (auto& belief : all.beliefs) belief = all.belief;
+    return diagnose(all);
+  };
+  const auto off = all_longer(0.03, false);
+  if (off.verdict == Verdict::consistent) {
+    EXPECT_EQ(off.detail, Detail::only_beyond_spread);
+    EXPECT_THAT(headline(off), HasSubstr("height_scale is off by"));
+    EXPECT_THAT(headline(off),
+                HasSubstr("alike in 8 trials; nobody stated its spread, and 4.0 % was assumed"));
+  }
+  EXPECT_THAT(headline(all_longer(0.0, false)), Not(HasSubstr("alike in")));
+  EXPECT_THAT(headline(all_longer(0.03, true)), Not(HasSubstr("alike in")));
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

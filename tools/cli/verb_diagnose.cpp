@@ -18,6 +18,7 @@
 #include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/answer/residuals_csv.hpp"
+#include "tools/diagnose/answer/spread_text.hpp"
 #include "tools/diagnose/discrepancy/port_error_evidence.hpp"
 #include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/evidence/form_error_evidence.hpp"
@@ -95,6 +96,15 @@ void tell_belief(Session& session, const UsedNumbers& used,
   }
   if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("belief {}", defaults);
   session.say("belief {} more numbers are 0 by default: not assumed", used.off);
+}
+
+// Spreads from trial to trial that a plant assumes although nobody stated them.
+void tell_assumed_spreads(Session& session, const sandhopper::diagnose::Diagnosis& d) {
+  for (const auto& n : d.trial_to_trial)
+    if (n.is_default && std::ranges::find(d.belief, "spread." + n.name,
+                                          &sandhopper::diagnose::BelievedNumber::key) == d.belief.end())
+      session.say("belief spread.{} = {} (nobody stated it: each trial may differ by that much)", n.name,
+                  sandhopper::diagnose::amount_in_words(n, n.believed_sd));
 }
 
 // No trial could be read, so there is no diagnosis; the findings give the reasons.
@@ -185,6 +195,7 @@ ExitCode diagnose(Session& session, const Options& options) {
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
   tell_belief(session, used, diagnosis.belief);
+  tell_assumed_spreads(session, diagnosis);
   if (!diagnosis.corrected_model_toml.empty()) {
     write(corrected, diagnosis.corrected_model_toml);
     session.say("corrected model: {}", corrected.string());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "tools/diagnose/answer/report_parts.hpp"
@@ -117,6 +118,14 @@ double believed_sd(const Problem& problem, const Nuisance& nuisance) {
   return std::max(nuisance.sd, stated_spread(problem.context.belief, nuisance.name));
 }
 
+bool leans_alike(const TrialToTrial& told) {
+  for (const std::string_view start : {"release_", "impact_", "initial_"})
+    if (told.name.starts_with(start)) return false;
+  const auto n = static_cast<double>(told.values.size());
+  if (n < 3.0 || !(told.sd_after > 0.0)) return false;
+  return student_t_two_sided(told.mean_after / (told.sd_after / std::sqrt(n)), n - 1.0) < kByChance;
+}
+
 }  // namespace
 
 void report_trial_to_trial(const Problem& problem, const Search& search, const std::vector<Trial>& recorded,
@@ -137,14 +146,18 @@ void report_trial_to_trial(const Problem& problem, const Search& search, const s
     if (told.values.size() < 2) continue;
     std::tie(told.mean_before, told.sd_before) = mean_and_sd(before);
     std::tie(told.mean_after, told.sd_after) = mean_and_sd(after);
+    told.is_default = stated_spread(problem.context.belief, name) <= 0.0;
     for (const auto& number : diagnosis.belief)
       if (number.key == "spread." + name) told.is_default = number.said_by.starts_with("default");
+    told.leans_alike = told.is_default && leans_alike(told);
     diagnosis.trial_to_trial.push_back(std::move(told));
   }
   mark_what_exceeds(problem.context.belief, diagnosis.trial_to_trial);
   for (auto& told : diagnosis.trial_to_trial) {
-    if (!told.exceeds_after()) continue;
-    told.goes_with = order_in_words(told.values, recorded);
+    if (told.exceeds_after())
+      told.goes_with = order_in_words(told.values, recorded);
+    else if (!told.leans_alike)
+      continue;
     if (diagnosis.verdict == Verdict::consistent) diagnosis.detail = Detail::only_beyond_spread;
   }
 }

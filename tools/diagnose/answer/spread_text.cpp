@@ -38,6 +38,12 @@ std::string beyond(const TrialToTrial& n) {
   return text;
 }
 
+std::string alike(const TrialToTrial& n) {
+  return fmt::format("{} is off by {} alike in {} trials; nobody stated its spread, and {} was assumed",
+                     subject_of(n), amount_in_words(n, n.mean_after), n.values.size(),
+                     amount_in_words(n, n.believed_sd));
+}
+
 }  // namespace
 
 bool TrialToTrial::exceeds_before() const {
@@ -57,7 +63,8 @@ std::string subject_of(const TrialToTrial& n) {
 std::string beyond_spread(const Diagnosis& d) {
   std::string text;
   for (const auto& n : d.trial_to_trial)
-    if (n.exceeds_after()) text += (text.empty() ? "" : "; and if ") + beyond(n);
+    if (n.exceeds_after() || n.leans_alike)
+      text += (text.empty() ? "" : "; and if ") + (n.exceeds_after() ? beyond(n) : alike(n));
   return text;
 }
 
