@@ -42,6 +42,8 @@ TEST(DiagnoseMisfit, LittleThatIsLeftOutweighsWhatExplainsNotMuchMore) {
   EXPECT_TRUE(misfit_of(trials, 4670.0 + 2000.0, false).outweighs);
   EXPECT_FALSE(misfit_of(trials, 4670.0 + 2500.0, false).outweighs);
   EXPECT_FALSE(misfit_of(trials_with({1.05, 1.0, 1.1, 1.0}), 4160.0, false).outweighs);
+  EXPECT_FALSE(misfit_of(trials_with({1.04, 1.04, 1.04, 1.04}), 4170.0, false).outweighs);
+  EXPECT_TRUE(misfit_of(trials_with({1.07, 1.07, 1.07, 1.07}), 4290.0, false).outweighs);
 }
 
 TEST(DiagnoseMisfit, OneTrialThatWentAstrayIsNoMisfitOfAll) {

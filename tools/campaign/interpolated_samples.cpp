@@ -134,11 +134,10 @@ std::vector<bool> rows_to_keep(const std::vector<std::size_t>& knots, std::size_
 }  // namespace
 
 void check_interpolated(TrialRecording& recording, const RecordingPlaces& places) {
-  constexpr std::size_t kFewest = 20;
-  if (!recording.has_time || recording.rows() < kFewest) return;
+  if (!recording.has_time) return;
   for (auto& channel : recording.channels) {
     const GridSamples samples(channel.values, places.column_of(channel.name));
-    if (samples.values.size() < kFewest || holds_in_truth(channel.name)) continue;
+    if (holds_in_truth(channel.name)) continue;
     const auto knots = knots_of(samples);
     const std::size_t grid = grid_of(knots);
     const double distance = grid > 0 ? static_cast<double>(grid) : uneven_grid_of(knots);

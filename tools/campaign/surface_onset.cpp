@@ -18,7 +18,7 @@ namespace sandhopper {
 namespace {
 
 constexpr std::size_t kIdleRows = 10;   // fewest rows of a mean and a standard deviation
-constexpr double kOnsetClear = 5.0;     // in standard deviations
+constexpr double kOnsetClear = 5.0;     // in standard deviations, of each thing that must be clear
 constexpr double kSteepest = 3.0;       // a cone; see the header
 constexpr double kHole = 0.5;           // share of the depth from which check_surface sees a hole
 constexpr double kOutOfLevel = 0.0349;  // sin(2 degrees)
@@ -90,10 +90,9 @@ std::size_t first_pushed(const std::vector<double>& force_N, double clear_N) {
   return force_N.size();
 }
 
-// The exponent n of F ~ d^n, by least squares of the logarithms, is above that of a cone by three of the
+// The exponent n of F ~ d^n, by least squares of the logarithms, is clearly above that of a cone: by the
 // standard errors that the noise of the force gives it.
 bool is_too_steep(const Stroke& stroke, std::size_t begin, std::size_t end, double idle_N, double sd_N) {
-  constexpr double kErrors = 3.0;
   std::vector<double> x, y, errors;
   for (std::size_t i = begin; i < end; ++i) {
     const double force_N = stroke.force_N[i] - idle_N;
@@ -107,7 +106,7 @@ bool is_too_steep(const Stroke& stroke, std::size_t begin, std::size_t end, doub
     const double away = x[i] - mean_x;
     xx += away * away, xy += away * y[i], variance += away * away * errors[i] * errors[i];
   }
-  return xx > 0.0 && xy - kErrors * std::sqrt(variance) > kSteepest * xx;
+  return xx > 0.0 && xy - kOnsetClear * std::sqrt(variance) > kSteepest * xx;
 }
 
 // True if the force grows from `first` to depth 0. Drift, or a mass below the cell that accelerates, stays
@@ -126,10 +125,9 @@ bool grows_above(const Stroke& stroke, std::size_t first, double idle_N) {
   return end_N > kGrowth * begin_N;
 }
 
-// The first force that stays above five times its noise; its line down to four times that force leads back to
-// the surface. Empty if the recording does not begin in air.
+// The first force that is clear of its noise; its line, down to where the force is clear of that first one by
+// the same factor, leads back to the surface. Empty if the recording does not begin in air.
 std::optional<Onset> onset_of(const Stroke& stroke) {
-  constexpr double kFurther = 4.0;
   constexpr std::size_t kFewestOfLine = 5;
   const auto& force = stroke.force_N;
   if (force.size() < 3 * kIdleRows) return std::nullopt;
@@ -142,7 +140,7 @@ std::optional<Onset> onset_of(const Stroke& stroke) {
   const double clear_N = kOnsetClear * sd_N;
   const std::size_t first = first_pushed(force, idle_N + clear_N);
   std::size_t end = first;
-  while (end < force.size() && force[end] - idle_N < kFurther * clear_N) ++end;
+  while (end < force.size() && force[end] - idle_N < kOnsetClear * clear_N) ++end;
   end = std::max(end, first + kFewestOfLine);
   if (first <= kIdleRows || end >= force.size()) return std::nullopt;
   const auto line = line_through(stroke, first, end);

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "tools/diagnose/answer/corrected_model.hpp"
+#include "tools/diagnose/answer/masses.hpp"
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/discrepancy/unexplained.hpp"
 #include "tools/diagnose/evidence/beside.hpp"
@@ -21,15 +22,6 @@
 
 namespace sandhopper::diagnose {
 namespace {
-
-constexpr double kLikelierThanNot = 0.5;
-// If the named effects explain less than this fraction of the held-out energy that can be explained, the
-// verdict is unknown physics.
-constexpr double kMostOfTheGap = 0.5;
-// Largest masses if names close most of the gap and something is left: the rest may be an error in the
-// form of a named law. Names have no more, either, if the rest was not looked at: with too few trials to
-// leave one out, or after a limit of time.
-constexpr double kNameBesideUnknown = 0.7, kUnknownBesideNames = 0.5;
 
 // Share of the work at the start of each step, as a rule.
 constexpr double kOfErrors = 0.9, kOfBounds = 0.93, kOfNextTrial = 0.97;
@@ -58,20 +50,10 @@ void report_verdict(const Problem& problem, const Search& search, const Posterio
   if (named) report_effects(problem, search, belief, diagnosis);
   report_what_is_left(problem, rest, diagnosis);
   diagnosis.gap_closed = rest.gap_closed;
-  if (rest.unknown || rest.law)
-    for (auto& effect : diagnosis.effects)
-      if (!effect.is_unknown()) effect.mass *= rest.gap_closed;
-  if (too_few || search.stopped())
-    for (auto& effect : diagnosis.effects) effect.mass = std::min(effect.mass, kNameBesideUnknown);
-  const bool by_names = rest.gap_closed > kMostOfTheGap &&
-                        std::ranges::any_of(diagnosis.effects, [](const FoundEffect& effect) {
-                          return !effect.is_unknown() && effect.mass > kLikelierThanNot;
-                        });
-  if (by_names)
-    for (auto& effect : diagnosis.effects) {
-      if (effect.is_unknown()) effect.mass = std::min(effect.mass, kUnknownBesideNames);
-      if (rest.unknown) effect.mass = std::min(effect.mass, kNameBesideUnknown);
-    }
+  const bool by_names = limit_by_rest(diagnosis.effects, {.gap_closed = rest.gap_closed,
+                                                          .unknown = rest.unknown,
+                                                          .has_law = rest.law.has_value(),
+                                                          .not_checked = too_few || search.stopped()});
   if (!by_names && rest.unknown) {
     diagnosis.verdict = Verdict::unknown_physics;
     diagnosis.detail = rest.law ? Detail::unknown_at_port : Detail::unknown_not_localised;

@@ -78,7 +78,7 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
 // True if the best set leaves so much that something unknown would be reported beside it.
 bool leaves_more_than_noise(const Problem& problem, const Search& search) {
   return misfit_of(problem, search).large ||
-         left_over_noise(problem, search.null().fit, search.best().fit).after > kMoreThanNoise ||
+         left_over_noise(problem, search.null().fit, search.best().fit).is_more_than_noise() ||
          loudest_channel(problem);
 }
 

@@ -6,6 +6,7 @@
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/evidence/limits.hpp"
 #include "tools/diagnose/evidence/screen.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 
 namespace sandhopper::diagnose {
@@ -17,7 +18,7 @@ using Set = std::vector<std::size_t>;
 constexpr double kUnbounded = 1e6;
 // Size in typical sizes below which an effect lies by its prior alone, with 97.5 %. A larger bound says
 // nothing about the recordings.
-const double kByPriorAlone = std::exp(normal_quantile(0.05) * kLimits.size_spread);
+const double kByPriorAlone = std::exp(normal_quantile(kLevel) * kLimits.size_spread);
 constexpr int kPasses = 6;  // of doubling a bound: sizes up to 32 times it are tried
 
 // All fitted subsets of the set, including itself and the empty set.
@@ -43,7 +44,7 @@ struct Margin {
 
 // The margin beside a set. All bounds of an answer hold together with 95 % (Bonferroni).
 Margin margin_beside(const Problem& problem, const Search& search, const SetFit& set) {
-  return {student_t_quantile(0.05 / static_cast<double>(problem.candidates.size()),
+  return {student_t_quantile(kLevel / static_cast<double>(problem.candidates.size()),
                              degrees_of_freedom(problem.trials.size())),
           form_deviance(problem, search.null().fit.deviance - set.fit.deviance)};
 }

@@ -3,13 +3,14 @@
 #include <limits>
 
 #include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kShareMoved = 0.01;         // Relative change of a number for its derivative.
-constexpr double kNinetyFivePercent = 1.96;  // standard deviations of a 95 % interval
+constexpr double kShareMoved = 0.01;  // Relative change of a number for its derivative.
 // Number of trials used if the simulation is costly.
 constexpr std::size_t kTrialsOfCostly = 8;
 
@@ -68,7 +69,7 @@ void report_belief(const Problem& problem, const Point& answer, Diagnosis& diagn
   for (std::size_t k = 0; k < numbers.size(); ++k)
     if (information[k] > 0.0)
       numbers[k]->error_that_shows =
-          kNinetyFivePercent / std::sqrt(share * information[k]) * numbers[k]->size();
+          normal_quantile(kLevel) / std::sqrt(share * information[k]) * numbers[k]->size();
 }
 
 }  // namespace sandhopper::diagnose

@@ -4,8 +4,10 @@
 #include <functional>
 #include <optional>
 
+#include "tools/diagnose/answer/masses.hpp"
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/evidence/calibration.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -34,7 +36,7 @@ MatrixXd parameter_covariance(const Problem& problem, const Point& point, double
   Index at = 0;
   for (const auto c : point.hypothesis.candidates)
     for (std::size_t j = 0; j < problem.candidates[c].parameters.size(); ++j, ++at)
-      held(at, at) += is_amplitude(problem.candidates[c].parameters, j) ? 0.01 : 1.0;
+      held(at, at) += is_amplitude(problem.candidates[c].parameters, j) ? kPriorOfAmplitude : 1.0;
   for (; at < k; ++at) held(at, at) += 1.0;
   const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
   const double trials = static_cast<double>(linear.size());
@@ -58,8 +60,6 @@ double held_out_loss(const Search& search, const EffectEvidence& evidence) {
   if (it == search.sets().end()) return drop;
   return std::clamp(it->second.fit.deviance - search.best().fit.deviance, 0.0, drop);
 }
-
-bool is_fault(const FoundEffect& effect) { return !effect.channel.empty(); }
 
 std::string filled(std::string text, const std::string& channel) {
   if (const auto at = text.find("{channel}"); at != std::string::npos) text.replace(at, 9, channel);
@@ -135,22 +135,6 @@ std::vector<std::string> class_of(const Problem& problem, std::size_t c, const P
   return list;
 }
 
-// Sorts by explained deviance and limits the masses of the effects after the first.
-void weigh_beside_each_other(std::vector<FoundEffect>& effects) {
-  std::ranges::sort(effects, std::greater<>{}, &FoundEffect::heldout_gain);
-  bool form_in_doubt = false;
-  for (std::size_t i = 1; i < effects.size(); ++i) {
-    auto& beside = effects[i];
-    if (beside.is_unknown()) continue;
-    beside.mass = mass_beside(beside.mass, beside.heldout_gain);
-    form_in_doubt = form_in_doubt || (is_fault(beside) && beside.heldout_gain < kSmallShare);
-  }
-  // A small sensor fault may only correct the form of the large effect's law. Then the large effect is in
-  // doubt, too.
-  if (form_in_doubt && !is_fault(effects.front()))
-    effects.front().mass = std::min(effects.front().mass, kMostBeside);
-}
-
 }  // namespace
 
 std::string change_of(const std::string& name) {
@@ -173,7 +157,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
   const Point& point = best.fit.point;
   const double explained = std::max(1e-300, search.null().fit.deviance - best.fit.deviance);
   const MatrixXd covariance = parameter_covariance(problem, point, explained);
-  const double quantile = student_t_quantile(0.05, degrees_of_freedom(problem.trials.size()));
+  const double quantile = student_t_quantile(kLevel, degrees_of_freedom(problem.trials.size()));
   Index at = 0;
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
     const auto c = point.hypothesis.candidates[e];
@@ -193,11 +177,11 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
         found.heldout_gain = std::min(1.0, held_out_loss(search, evidence) / explained);
         found.p_value = std::max(evidence.p_value, 1e-300);
         found.typicals = evidence.typicals;
-        if (evidence.weak) found.mass = std::min(found.mass, kMostOfWeak);
+        found.mass = mass_alone(found.mass, evidence.weak);
       }
     diagnosis.effects.push_back(std::move(found));
   }
-  weigh_beside_each_other(diagnosis.effects);
+  limit_beside_each_other(diagnosis.effects);
 }
 
 }  // namespace sandhopper::diagnose

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/answer/masses.hpp"
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 #include "tools/diagnose/model/quantity.hpp"
 
@@ -12,8 +14,6 @@ namespace sandhopper::diagnose {
 namespace {
 
 constexpr double kSeenDirectly = 0.97;  // probability of findings that the recordings show directly
-// Largest probability that an unknown effect acts at the port of the nearest named one.
-constexpr double kNearMass = 0.5;
 
 void found_without_a_fit(Diagnosis& diagnosis, Detail detail) {
   if (diagnosis.verdict != Verdict::consistent && !is_open(diagnosis.verdict)) return;
@@ -67,7 +67,7 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
                   gain.family.variable, 100.0 * share);
   effect.equation =
       fmt::format("{} += f({})", quantity_of(quantity).words, quantity_of(gain.family.variable).words);
-  effect.mass = 1.0 - std::min(0.5, 50.0 * gain.p_value);
+  effect.mass = mass_of_unknown(gain.p_value);
   effect.heldout_gain = share;
   effect.p_value = gain.p_value;
   diagnosis.effects.push_back(std::move(effect));
@@ -87,7 +87,7 @@ void report_unknown_near(double gap_closed, Diagnosis& diagnosis) {
       "comes nearest.",
       near->port, 100.0 * (1.0 - gap_closed), near->id);
   effect.equation = "not known";
-  effect.mass = kNearMass;
+  effect.mass = kLikelierThanNot;
   effect.p_value = near->p_value;
   effect.heldout_gain = 1.0 - gap_closed;
   diagnosis.effects.push_back(std::move(effect));
@@ -103,7 +103,7 @@ void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis) {
                        loud.port, loud.channel, loud.times),
        .equation = "not known",
        .parameters = {},
-       .mass = kNearMass});
+       .mass = kLikelierThanNot});
 }
 
 void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
@@ -116,7 +116,7 @@ void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
                                 lean.port, lean.nuisance, std::abs(lean.z)),
        .equation = "not known",
        .parameters = {},
-       .mass = kNearMass});
+       .mass = kLikelierThanNot});
 }
 
 void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
@@ -139,7 +139,7 @@ void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
                        port),
        .equation = "not known",
        .parameters = {},
-       .mass = kNearMass});
+       .mass = kLikelierThanNot});
 }
 
 namespace {

@@ -6,12 +6,11 @@
 #include <tuple>
 
 #include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
-
-constexpr double kByChance = 0.01;  // probability that a believed spread, or an order, looks broken by chance
 
 // Index of the nuisance in this trial. None: the trial does not have it, or several share the name, as the
 // knots along depth do.
@@ -90,7 +89,7 @@ std::string order_in_words(const std::vector<SpreadValue>& values, const std::ve
   std::string text;
   for (const auto& [key, groups] : by_key) {
     const int order = order_of(groups);
-    if (order == 0 || chance_of_order(groups) * static_cast<double>(by_key.size()) > kByChance) continue;
+    if (order == 0 || chance_of_order(groups) * static_cast<double>(by_key.size()) > kSignificance) continue;
     text += (text.empty() ? "" : ", ") + std::string(order > 0 ? "rises with " : "falls with ") + key;
   }
   return text;
@@ -102,7 +101,7 @@ void mark_what_exceeds(const Belief& belief, std::vector<TrialToTrial>& told) {
   for (const auto& nuisance : told)
     if (stated_spread(belief, nuisance.name) > 0.0) tests += static_cast<double>(nuisance.values.size());
   if (tests == 0.0) return;
-  const double most = normal_quantile(kByChance / tests);
+  const double most = normal_quantile(kSignificance / tests);
   for (auto& nuisance : told) {
     if (stated_spread(belief, nuisance.name) <= 0.0) continue;
     for (auto& value : nuisance.values) {
@@ -123,7 +122,7 @@ bool leans_alike(const TrialToTrial& told) {
     if (told.name.starts_with(start)) return false;
   const auto n = static_cast<double>(told.values.size());
   if (n < 3.0 || !(told.sd_after > 0.0)) return false;
-  return student_t_two_sided(told.mean_after / (told.sd_after / std::sqrt(n)), n - 1.0) < kByChance;
+  return student_t_two_sided(told.mean_after / (told.sd_after / std::sqrt(n)), n - 1.0) < kSignificance;
 }
 
 }  // namespace

@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kFalseDiscoveries = 0.05;  // rate at which reported cells may be noise
 
 // Stages of a trial by name, and the stage of every row: the plant's phases, or thirds of the trial's time.
 struct Stages {
@@ -204,7 +203,7 @@ void report_where(const Problem& problem, const Search& search, const Residuals&
     whole += std::max(0.0, cell.energy());
     p_values.push_back(cell.p_value());
   }
-  const auto seen = rejected_at_false_discovery_rate(p_values, kFalseDiscoveries);
+  const auto seen = rejected_at_false_discovery_rate(p_values, kLevel);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!seen[i] || !cells[i].is_louder_than_noise()) continue;
     place_on_axis(problem, cells[i]);

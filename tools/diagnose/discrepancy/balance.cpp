@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/diagnose/discrepancy/misfit.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -13,8 +15,7 @@ using Eigen::VectorXd;
 
 constexpr int kKnots = 21;
 constexpr std::size_t kLeastRows = 50;  // rows of one trial
-constexpr std::size_t kLeastTrials = 3;
-constexpr double kRidge = 1e-3;  // relative to the mean information of a knot
+constexpr double kRidge = 1e-3;         // relative to the mean information of a knot
 // Prior spread of the square roots of the held-out fractions (`p_of_gains`).
 constexpr double kShareSpread = 0.1;
 
@@ -84,7 +85,7 @@ std::vector<FreeGain> laws_of_balances(const Problem& problem, const std::vector
         series.push_back(&balance);
         states.insert(states.end(), balance.states.begin(), balance.states.end());
       }
-    if (series.size() < kLeastTrials) continue;
+    if (series.size() < kTooFewTrials) continue;
     for (const auto& family : free_families_over(port, states, kKnots)) {
       std::vector<MatrixXd> parts;
       for (const auto* balance : series) parts.push_back(products(*balance, family));

@@ -25,13 +25,14 @@ double noise_over_sensors(const Problem& problem);
 // RMS of the residual / RMS of noise and model error, without whitening, because whitening hides slow
 // deviations: median over the trials, for the channel with a stated noise in which most is left. 0 if no
 // noise is stated or if there are fewer than three trials.
+inline constexpr double kMoreThanNoise = 1.35;  // Of `after`; at most 1.13 with nothing missing.
 struct LeftOver {
   double before = 0.0;  // without the effects
   double after = 0.0;   // with them
   // Part of the excess over the noise that the effects leave: (after^2 - 1) / (before^2 - 1), from 0 to 1.
   double share() const;
+  bool is_more_than_noise() const { return after > kMoreThanNoise; }
 };
-inline constexpr double kMoreThanNoise = 1.35;  // Of `after`; at most 1.13 with nothing missing.
 LeftOver left_over_noise(const Problem& problem, const Fit& without, const Fit& with);
 
 // A channel whose fitted noise far exceeds the stated noise of its sensor. A disturbance that does not repeat

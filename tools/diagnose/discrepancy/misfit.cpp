@@ -3,8 +3,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Limits of the residual deviance per row, above the noise, and relative to the explained deviance.
-constexpr double kMuchPerRow = 0.5;
+// A large residual also exceeds this fraction of the explained deviance.
 constexpr double kMuchOfExplained = 0.1;
 // Smallest residual per row that is compared with the explained deviance.
 constexpr double kLittlePerRow = 0.05;

@@ -6,6 +6,12 @@ namespace sandhopper::diagnose {
 
 inline constexpr std::size_t kTooFewTrials = 3;  // Smallest number of trials for statements about all trials.
 
+// Residual deviance per row, above the noise, from which it is large.
+inline constexpr double kMuchPerRow = 0.5;
+// Gain of the deviance per row above which an effect is never too small to be named, and a law of free form
+// is no error in the form of the named laws.
+inline constexpr double kUnmistakablePerRow = 0.3;
+
 // Deviance that an explanation leaves above the noise (expected deviance: 1 per row).
 struct Misfit {
   double unexplained = 0.0, explained = 0.0;

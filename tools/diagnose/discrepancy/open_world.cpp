@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "tools/diagnose/fit/fit.hpp"
+#include "tools/diagnose/fit/levels.hpp"
+#include "tools/diagnose/fit/statistics.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -13,7 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kAloneGain = 7.5;  // With a single trial: gain / spread^2 that is accepted.
 // Prior standard deviation of the square root of a trial's gain.
 constexpr double kGainSpread = 2.0;
 constexpr double kSensorHandicap = 0.75;  // Prefer a law in the plant to a law in a sensor.
@@ -22,7 +23,9 @@ constexpr double kSensorHandicap = 0.75;  // Prefer a law in the plant to a law 
 
 double p_of_gains(const std::vector<double>& gains, double spread) {
   const double n = static_cast<double>(gains.size());
-  if (n < 2.0) return gains.empty() || gains[0] < kAloneGain * spread * spread ? 1.0 : 0.01;
+  // Nothing shows the scatter of a single trial: its gain counts as that of a normal variable.
+  const double alone = spread * normal_quantile(kSignificance);
+  if (n < 2.0) return gains.empty() || gains[0] < alone * alone ? 1.0 : kSignificance;
   // Signed square roots, so that one trial with a huge gain does not dominate.
   double sum = 0.0, squares = 0.0;
   for (const double g : gains) {
@@ -50,7 +53,7 @@ std::vector<FreeGain> free_gains(const Problem& problem, const Point& point) {
     }
   }
   const auto linear = linearise_all(problem, point, directions);
-  VectorXd prior = VectorXd::Constant(own, 0.01);
+  VectorXd prior = VectorXd::Constant(own, kPriorOfAmplitude);
   prior.tail(static_cast<Index>(point.tolerances.size())).setOnes();
   const auto grams = eliminated(linear, 1, own, prior);
   std::vector<FreeGain> gains;

@@ -7,50 +7,23 @@
 #include <utility>
 
 #include "tools/diagnose/discrepancy/balance.hpp"
+#include "tools/diagnose/discrepancy/law_limits.hpp"
 #include "tools/diagnose/evidence/beside.hpp"
 #include "tools/diagnose/evidence/calibration.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
-// Limits of the fraction of the explainable deviance that a free law explains (a law of a sensor, a law of
-// the plant). Above the limit it is unknown physics. Measured beside the right names: at most 0.08 for a law
-// of the plant (105 campaigns of a second program), 0.16 for a law of a sensor.
-constexpr double kUnknownShare = 0.30, kUnknownShareOfPlant = 0.16;
-constexpr double kUnknownSignificance = 0.003;
-constexpr double kSmallestLaw = 0.1;  // Ignore laws whose largest value (in scales of the port) is smaller.
-// Relative to the best fit's deviance; the errors of a null campaign stay below.
-constexpr double kUnknownShareOfDeviance = 0.03;
-constexpr double kUnknownPerRow = 0.3;  // Gain per row that is too large for an error of the form.
-constexpr double kMisfitSignificance = 0.05;
-// A free law must explain this many times what the best names explain.
-constexpr double kOutdone = 1.3;
-// Expected deviance per row that no law undercuts; free laws are tried only if they can stay above it.
-constexpr double kLeastPerRow = 0.75;
-constexpr double kMostTrialsLeft = 0.75;  // fraction of the trials that a law must improve
-constexpr double kUnknownGain = 25.0;
-// Smaller gains change no residual by a noticeable fraction of the noise floor.
-constexpr double kUnknownGainPerRow = 0.004;
-constexpr double kBalanceShare = 0.25;  // Fraction of a trial's variance; below 0.05 with nothing missing.
-constexpr double kBalanceSignificance = 0.01;
-// Limits of |z| of a common nuisance offset: beside named effects (at most 3.3 with the right ones), and
-// without any (at most 2.9 with nothing missing).
-constexpr double kLeansBeside = 4.5, kLeansAlone = 6.0;
-// Fitted noise / sensors' own noise with the best set; smaller if nothing is missing.
-constexpr double kNoiseHidesMuch = 1.3;
 constexpr std::size_t kLawsTold = 4;
 
-// Skip laws of torque (listed actuator effects look the same) and of time (correlates with everything).
 std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings& recordings) {
   std::vector<Balance> balances;
   for (std::size_t i = 0; i < recordings.trials.size(); ++i)
     for (auto& balance : problem.plant->balances(recordings.trials[i], recordings.beliefs[i]))
       balances.push_back(std::move(balance));
   for (auto& gain : laws_of_balances(problem, balances))
-    if (gain.family.variable != "torque_Nm" && gain.family.variable != "t_s" &&
-        gain.held_out > kBalanceShare && gain.p_value < kBalanceSignificance &&
-        gain.trials_better >= kMostTrialsLeft)
-      return std::move(gain);
+    if (is_law_of_balance(gain)) return std::move(gain);
   return std::nullopt;
 }
 
@@ -80,10 +53,7 @@ std::optional<FreeGain> in_place_of_small_faults(const Problem& problem, const S
     log.push_back(fmt::format("in the place of small faults, which gain {:.1f}: free law at {} of {}, {:.1f}",
                               of_faults, best_law->family.port, best_law->family.variable,
                               best_law->held_out));
-  return first_of(gains, [&](const FreeGain& gain) {
-    return !gain.family.sensor && gain.held_out > std::max(of_faults, kUnknownGain) &&
-           gain.p_value < kMisfitSignificance && gain.trials_better >= kMostTrialsLeft;
-  });
+  return first_of(gains, [&](const FreeGain& gain) { return is_law_in_place_of_faults(gain, of_faults); });
 }
 
 }  // namespace
@@ -110,10 +80,9 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
   const SetFit& best = search.best();
   Unexplained out;
   out.misfit = misfit_of(problem, search);
-  const double explained = out.misfit.explained, rows = problem.rows(), form = problem.plant->form_error();
-  const double least_gain =
-      std::max({kUnknownGain, kUnknownGainPerRow * rows,
-                std::min(kUnknownShareOfDeviance, 10.0 * form) * best.fit.deviance, form * explained});
+  const double explained = out.misfit.explained, rows = problem.rows();
+  const BestNames names{rows, best.fit.deviance, explained, problem.plant->form_error()};
+  const double least_gain = least_gain_of_law(names);
 
   const auto is_more = [&](const FreeGain& gain) {
     return gain.held_out > std::max(least_gain, problem.plant->simulations_differ(gain.family.port) * rows);
@@ -126,14 +95,9 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
         beside[i].family.port, beside[i].family.variable, beside[i].held_out, beside[i].p_value,
         100.0 * beside[i].trials_better, beside[i].family.scale * beside[i].size.cwiseAbs().maxCoeff()));
   if (problem.trials.size() >= kTooFewTrials)
-    out.law = first_of(beside, [&](const FreeGain& gain) {
-      // If few trials show a law, the p-value is weak. Accept that if the gain is large.
-      const bool much = gain.held_out > kUnknownPerRow * rows;
-      return is_more(gain) && gain.p_value < (much ? kMisfitSignificance : kUnknownSignificance) &&
-             gain.trials_better >= kMostTrialsLeft && gain.size.cwiseAbs().maxCoeff() > kSmallestLaw;
-    });
-  const bool by_balance =
-      (out.misfit.noticeable || noise_over_sensors(problem) > kNoiseHidesMuch) && balance();
+    out.law =
+        first_of(beside, [&](const FreeGain& gain) { return is_more(gain) && is_law_beside(gain, rows); });
+  const bool by_balance = (out.misfit.noticeable || noise_over_sensors(problem) > kQuietChannel) && balance();
   if (by_balance) {
     out.law = balance();
     log.push_back(fmt::format("balance at {}, {}: {:.0f} % of a trial's variance, p {:.1e}",
@@ -153,12 +117,12 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
                                 likely->beside_nothing ? "nothing" : "the best set"));
       out.law = first_of(likely->beside_nothing ? alone : beside, [&](const FreeGain& gain) {
         return gain.family.port == likely->family.port && gain.family.variable == likely->family.variable &&
-               gain.held_out > kUnknownGain;
+               is_likely_law(gain);
       });
     }
     if (!out.law)
       out.law = first_of(alone, [&](const FreeGain& gain) {
-        return is_more(gain) && (gain.p_value < kMisfitSignificance || problem.plant->motion_is_prescribed());
+        return is_more(gain) && (gain.p_value < kLevel || problem.plant->motion_is_prescribed());
       });
     // Without the names the law explains what they explain, too. Only what they leave counts as left.
     if (out.law && explained > 0.0)
@@ -167,15 +131,9 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
   // If a free law explains more on held-out trials than the best names on the trials they were fitted to, the
   // names are wrong.
   bool outdone = false;
-  const bool may_be_outdone =
-      !problem.plant->is_costly() ||
-      best.fit.deviance - (kOutdone - 1.0) * explained - least_gain > kLeastPerRow * rows;
-  if (!best.set.empty() && !out.law && may_be_outdone) {
+  if (!best.set.empty() && !out.law && (!problem.plant->is_costly() || may_be_outdone(names))) {
     if (alone.empty()) alone = free_gains(problem, search.null().fit.point);
-    out.law = first_of(alone, [&](const FreeGain& gain) {
-      return gain.held_out > kOutdone * explained + least_gain && gain.p_value < kMisfitSignificance &&
-             gain.trials_better >= kMostTrialsLeft;
-    });
+    out.law = first_of(alone, [&](const FreeGain& gain) { return outdoes_names(gain, names); });
     outdone = out.law.has_value();
   }
   bool form_outdoes = false;
@@ -189,7 +147,7 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
   const LeftOver over = left_over_noise(problem, search.null().fit, best.fit);
   out.left = over.after;
   if (problem.plant->says_how_trials_differ(belief)) out.lean = largest_lean(problem, best.fit.point);
-  out.leans = std::abs(out.lean.z) > (best.set.empty() ? kLeansAlone : kLeansBeside);
+  out.leans = is_unknown_lean(out.lean.z, !best.set.empty());
   // Not for costly plants: a hopper's accelerometers vibrate with the structure, and no belief states that
   // noise well.
   if (!problem.plant->is_costly()) out.loud = loudest_channel(problem);
@@ -197,24 +155,22 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
     log.push_back(fmt::format("loud: {}, {:.2f} times its sensor", out.loud->channel, out.loud->times));
   log.push_back(fmt::format("left: {:.2f} times the noise; all trials lean by {:.1f} {}", out.left,
                             out.lean.z, out.lean.nuisance));
-  const bool more_than_noise = !faults && (out.left > kMoreThanNoise || out.leans || out.loud);
+  const bool more_than_noise = !faults && (over.is_more_than_noise() || out.leans || out.loud);
   if (more_than_noise && best.set.empty() && !out.law)
     out.law = first_of(beside, [&](const FreeGain& gain) {
       return !gain.family.sensor && is_more(gain) &&
-             (out.left > kMoreThanNoise || gain.family.port.starts_with(out.lean.port));
+             (over.is_more_than_noise() || gain.family.port.starts_with(out.lean.port));
     });
 
   const auto share = [&] {
     return out.law ? out.law->held_out / (out.law->held_out + std::max(explained, 0.0)) : 0.0;
   };
-  const double most_share = out.law && !out.law->family.sensor ? kUnknownShareOfPlant : kUnknownShare;
+  const bool beyond_form = out.law && is_beyond_form(*out.law, share(), rows);
   // A law whose gain is within the noise and small beside the explained deviance is dropped.
-  if (!outdone && !by_balance && !more_than_noise && best.fit.deviance < rows && share() <= most_share &&
-      out.remainder() <= kUnknownPerRow * rows)
+  if (!outdone && !by_balance && !more_than_noise && best.fit.deviance < rows && !beyond_form)
     out.law.reset();
   out.share = share();
-  out.unknown = out.misfit.large || more_than_noise || by_balance || form_outdoes ||
-                (out.law && (out.share > most_share || out.remainder() > kUnknownPerRow * rows));
+  out.unknown = out.misfit.large || more_than_noise || by_balance || form_outdoes || beyond_form;
   double left = out.remainder();
   // In the deviance's unit: the part of the explained deviance that would close as much of the excess.
   const double of_excess = over.share() < 1.0 && explained > 0.0

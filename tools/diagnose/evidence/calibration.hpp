@@ -21,16 +21,17 @@ inline double calibrated(double mass) {
   return a.probability + (b.probability - a.probability) * (m - a.mass) / (b.mass - a.mass);
 }
 
-// A small effect beside a large one may only correct the form of the large one's law. Therefore an effect
-// that explains less than `kSmallShare` of the total gets a probability of at most `kMostBeside`: in the
-// campaigns that set these two numbers, 4 of 7 such effects were right.
+// Largest probability of a name that another form of a named law may stand for: a small effect beside a large
+// one, or a name beside something unknown. In the campaigns that set it and `kSmallShare`, 4 of 7 effects
+// that explained less than this share of the total were right.
+inline constexpr double kMostInDoubt = 0.7;
 inline constexpr double kSmallShare = 0.13;
-inline constexpr double kMostBeside = 0.7;
 inline double mass_beside(double mass, double share_of_explained) {
-  return share_of_explained < kSmallShare ? std::min(mass, kMostBeside) : mass;
+  return share_of_explained < kSmallShare ? std::min(mass, kMostInDoubt) : mass;
 }
 
 // Largest probability of an effect that is named alone on evidence too weak to name it beside others.
 inline constexpr double kMostOfWeak = 0.75;
+inline double mass_alone(double mass, bool is_weak) { return is_weak ? std::min(mass, kMostOfWeak) : mass; }
 
 }  // namespace sandhopper::diagnose

@@ -5,14 +5,12 @@
 #include "tools/diagnose/evidence/form_error.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/evidence/screen.hpp"
+#include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/recordings/data_faults.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
-
-// Start sizes in typical sizes.
-constexpr double kStarts[] = {1.0, 0.3, 2.0, -1.0, -0.3};
 
 // The fit of one effect with the least deviance, from several sizes and all choices of its shapes.
 Fit fitted_alone(const Problem& problem, const Point& null, const std::string& effect,
@@ -23,7 +21,7 @@ Fit fitted_alone(const Problem& problem, const Point& null, const std::string& e
     if (candidate.effect->id != effect) continue;
     const auto& size = candidate.parameters[0];
     for (auto values : shape_choices(candidate))
-      for (const double start : kStarts) {
+      for (const double start : kCommonSizes) {
         progress(0.5);
         if (start < 0.0 && !size.either_sign) continue;
         values[0] = std::clamp(start * size.typical, size.low, size.high);

@@ -27,4 +27,7 @@ struct Limits {
 };
 inline constexpr Limits kLimits{};
 
+// True if a set stays in question that is so many times as probable as the best one (at most 1).
+inline bool can_be_exchanged(double ratio) { return ratio * kLimits.exchangeable >= 1.0; }
+
 }  // namespace sandhopper::diagnose

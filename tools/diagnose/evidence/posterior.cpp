@@ -15,8 +15,6 @@ constexpr double kRemainderScale = 10.0;  // Held-out gain of a free law that ad
 // Smaller differences between sets count less.
 constexpr double kShareOfExplained = 2e-4;
 constexpr double kShareOfForm = 0.02;  // The same, relative to the plant's form error.
-// Weight relative to the best set below which an alternative does not join the class.
-constexpr double kLeastShare = 1.0 / kLimits.exchangeable;
 
 // Weight of each fitted set, relative to the best one.
 std::map<std::vector<std::size_t>, double> weights(const Problem& problem, const Search& search,
@@ -36,15 +34,19 @@ std::map<std::vector<std::size_t>, double> weights(const Problem& problem, const
 
 }  // namespace
 
+double share_in_doubt(double form_error) { return std::max(kShareOfExplained, kShareOfForm * form_error); }
+
+double temperature_with(double remainder) { return 1.0 + remainder / kRemainderScale; }
+
 Posterior posterior(const Problem& problem, const Search& search, double remainder) {
   Posterior out;
-  const double differs = std::max(kShareOfExplained, kShareOfForm * problem.plant->form_error());
+  const double differs = share_in_doubt(problem.plant->form_error());
   const SetFit& best = search.best();
   const double explained = with_form_unnoticed(problem, search.null().fit.deviance - best.fit.deviance);
-  const double at_least = 1.0 + remainder / kRemainderScale;
+  const double at_least = temperature_with(remainder);
   const double temperature = at_least + differs * explained / search.dispersion();
-  out.apart = -2.0 * std::log(kLeastShare) * temperature;
-  out.apart_per_explained = -2.0 * std::log(kLeastShare) * differs;
+  out.apart = 2.0 * std::log(kLimits.exchangeable) * temperature;
+  out.apart_per_explained = 2.0 * std::log(kLimits.exchangeable) * differs;
   for (std::size_t e = 0; e < best.fit.point.hypothesis.candidates.size(); ++e) {
     const auto candidate = best.fit.point.hypothesis.candidates[e];
     auto rest = best.set;
@@ -69,7 +71,7 @@ Posterior posterior(const Problem& problem, const Search& search, double remaind
       }
       if (set.size() != best.set.size() || !std::includes(set.begin(), set.end(), rest.begin(), rest.end()))
         continue;
-      if (w < kLeastShare) continue;
+      if (!can_be_exchanged(w)) continue;
       with += w;
       if (search.criterion(search.sets().at(set)) > without_any) continue;
       for (const auto other : set)

@@ -21,6 +21,11 @@ struct Posterior {
   // Key: effect of the best set. Value: effects that explain as much in its place, most probable first.
   std::map<std::size_t, std::vector<std::size_t>> alternatives;
 };
+// Share of the explained deviance by which simulation errors and laws of another form can change it, with the
+// plant's relative form error.
+double share_in_doubt(double form_error);
+// Temperature beside a law of free form with this held-out gain.
+double temperature_with(double remainder);
 Posterior posterior(const Problem& problem, const Search& search, double remainder);
 
 }  // namespace sandhopper::diagnose

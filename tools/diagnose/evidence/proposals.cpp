@@ -16,8 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Prior information of an amplitude in typical sizes. A shape has 1.
-constexpr double kProposalInformation = 0.01;
 constexpr std::size_t kGrowing = 24;  // Number of best sets that are extended by one more effect.
 
 // A candidate with one choice of its shapes, and the columns of the Gram matrix that belong to it.
@@ -81,7 +79,7 @@ class Weigher {
       score[i] = gram_(a, 0);
       for (Index j = 0; j < k; ++j) information(i, j) = gram_(a, columns[static_cast<std::size_t>(j)]);
       const auto& [option, at] = which[static_cast<std::size_t>(i)];
-      information(i, i) += amplitude_at(*option, at) ? kProposalInformation : 1.0;
+      information(i, i) += amplitude_at(*option, at) ? kPriorOfAmplitude : 1.0;
     }
     set.size = information.ldlt().solve(score);
     set.deviance = gram_(0, 0) - score.dot(set.size);

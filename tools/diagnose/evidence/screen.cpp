@@ -8,16 +8,10 @@
 #include "tools/diagnose/fit/fit.hpp"
 
 namespace sandhopper::diagnose {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Prior information of a size in typical sizes: standard deviation 10.
-constexpr double kPriorInformation = 0.01;
-
-}  // namespace
 
 std::vector<std::vector<double>> shape_choices(const Candidate& candidate) {
   std::vector<double> typical;
@@ -136,7 +130,7 @@ std::vector<Screened> screen(const Problem& problem, const Point& point,
     std::vector<Index> group_columns;
     for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i)
       group_columns.push_back(own + 1 + alternative.first + static_cast<Index>(i));
-    auto group = group_gain(grams, group_columns, kPriorInformation);
+    auto group = group_gain(grams, group_columns, kPriorOfAmplitude);
     const auto& parameters = problem.candidates[alternative.candidate].parameters;
     Screened s{alternative.candidate, alternative.values, group.gain, group.evidence, group.size[0]};
     for (std::size_t i = 0; i < alternative.amplitudes.size(); ++i) {

@@ -7,7 +7,9 @@
 #include <set>
 
 #include "tools/diagnose/discrepancy/left_over.hpp"
+#include "tools/diagnose/evidence/limits.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
+#include "tools/diagnose/evidence/needed.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
 
@@ -18,10 +20,10 @@ namespace {
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
 // Prior odds: "something is missing" against "one more effect is missing".
 constexpr double kLikelierThanOneMore = 2.0;
-// Prior of ln(size / typical): standard deviation below and above 1. Small effects are common. Large sizes
-// are suspect: two effects that nearly cancel each other are both many times their typical size.
+// Prior of ln(size / typical): standard deviation below 1; above it is Limits::size_spread. Small effects are
+// common. Large sizes are suspect: two effects that nearly cancel each other are both many times their
+// typical size.
 constexpr double kSpreadBelow = 1.8;
-constexpr double kSpreadAbove = 1.0;
 
 // Skip a nuisance step that gains less than this fraction of the trial's deviance above the noise.
 constexpr double kFarGain = 1e-3;
@@ -29,15 +31,7 @@ constexpr int kNullRestarts = 3;
 constexpr std::size_t kFitsToFreeNull = 2;
 // Keep the null fit unless the refit gains at least 2 % of what the closest single effect gained.
 constexpr double kFreed = 0.02;
-// The nuisances have absorbed something if the deviance per row exceeds this value.
-constexpr double kBentPerRow = 1.5;
-// The same if a nuisance's mean over the trials has a larger |z| than this. With nothing missing |z| is at
-// most 2.9.
-constexpr double kBentLean = 4.0;
-// An effect explains the common nuisance offset if |z| falls below this fraction.
-constexpr double kUnbent = 0.6;
 constexpr std::size_t kStraightFits = 3, kTrialsHeld = 5;
-constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};  // Start values in typical sizes.
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
   set.push_back(candidate);
@@ -50,7 +44,7 @@ double size_deviance(const Problem& problem, const Hypothesis& hypothesis) {
   double sum = 0.0;
   for (std::size_t e = 0; e < hypothesis.candidates.size(); ++e) {
     const double size = std::log(std::max(typicals_of(problem, hypothesis, e), 1e-3));
-    sum += std::pow(size / (size < 0.0 ? kSpreadBelow : kSpreadAbove), 2);
+    sum += std::pow(size / (size < 0.0 ? kSpreadBelow : kLimits.size_spread), 2);
   }
   return sum;
 }
@@ -207,14 +201,12 @@ void Search::fit_straight(const SetFit& from, const Point& start, const std::vec
 
 // True if the nuisance parameters have absorbed something that is missing.
 bool Search::is_bent(const Fit& fit) const {
-  return fit.deviance > kBentPerRow * problem_->rows() ||
-         std::abs(largest_lean(*problem_, fit.point).z) > kBentLean;
+  return have_absorbed(fit.deviance, problem_->rows(), largest_lean(*problem_, fit.point).z);
 }
 
 // True if `with` removes most of a nuisance offset that all trials have in common in `without`.
 bool Search::unbends(const Fit& without, const Fit& with) const {
-  const double before = std::abs(largest_lean(*problem_, without.point).z);
-  return before > kBentLean && std::abs(largest_lean(*problem_, with.point).z) < kUnbent * before;
+  return removes_offset(largest_lean(*problem_, without.point).z, largest_lean(*problem_, with.point).z);
 }
 
 void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {

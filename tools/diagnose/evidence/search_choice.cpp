@@ -6,6 +6,7 @@
 #include "tools/diagnose/evidence/proposals.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
+#include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
 
 // Choice of the best set among the fitted ones, with the fits that a fair comparison needs.
@@ -16,8 +17,6 @@ namespace {
 // `kNearestRivals` nearest sets.
 constexpr double kUnsettled = 1e-5, kFarUnsettled = 0.02;
 constexpr std::size_t kNearestRivals = 3;
-// p-value below which an effect is added to the best set by its own dispersion.
-constexpr double kSurely = 1e-8;
 // The real drop of the deviance may be this many times its linear estimate.
 constexpr double kPromiseShort = 1.5;
 // Fraction of the gain of a law of free form that a set must explain to replace the law.
@@ -106,7 +105,7 @@ void Search::grow_best() {
     if (!fit.needed) return false;
     const auto added = std::ranges::find_if(
         fit.evidence, [&](const auto& e) { return !std::ranges::binary_search(best_, e.candidate); });
-    return added->p_value < kSurely &&
+    return added->p_value < kBeyondDoubt &&
            criterion(fit, added->dispersion) + kWorthAFit < criterion(best(), added->dispersion);
   };
   for (bool grown = true; grown && best_.size() < options_.most_effects && !over();) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/diagnose/evidence/form_error.hpp"
+#include "tools/diagnose/evidence/needed.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
@@ -18,35 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Smallest (effective) number of trials for a sign-flip test: 2^6 = 64 combinations.
-constexpr double kTrialsToFlip = 6.0;
-// The fit without the effect must be worse by this fraction of the linear gain, or worse in most trials
-// (kFlips). If the simulation is chaotic, the derivative is huge but the real difference is near zero.
-constexpr double kComesTrue = 0.05;
-// p-value of sign flips, family-wise; required in addition to Student's t over trials. Also the p-value of
-// the signed-rank test that most trials are worse without the effect (six trials reach 0.016 at best).
-constexpr double kFlips = 0.05;
-// The p-value by Student's t for an effect that is named alone is larger: that anything is missing is more
-// probable a priori than one more effect. Sign flips have one level.
-constexpr double kSignificanceAlone = 0.05;
-// p-value for an effect named beside a stronger one, in campaigns of at least `kTrialsToDoubt` trials and for
-// plants with at least the relative form error `kFormInDoubt`. Real effects lie orders of magnitude below it
-// there; effects that only correct the form of the other law at some of its states do not reach it.
-constexpr double kSignificanceBeside = 1e-4;
-constexpr std::size_t kTrialsToDoubt = 10;
-constexpr double kFormInDoubt = 0.01;
-// If the real drop exceeds this fraction of the linear gain, sign flips at the fit itself count, too.
-constexpr double kMostlyTrue = 0.3;
-// p-value that suffices without sign flips if a few trials carry nearly all information.
-constexpr double kWithoutFlips = 1e-4;
-// An effect with a gain above this fraction of the explained deviance is far from linear.
-constexpr double kFarShare = 0.02;
-// p-value above which a set is not worth a better fit.
-constexpr double kHopeless = 0.2;
-// p-value below which a large effect needs no sign flips.
-constexpr double kBeyondDoubt = 1e-8;
-constexpr double kUnmistakablePerRow =
-    0.3;  // Gain per row above which an effect is never too small to be named.
 // Edits of the simulation by effect `e` alone.
 Edits edits_of(const Problem& problem, const Hypothesis& hypothesis, std::size_t e) {
   const auto& candidate = problem.candidates[hypothesis.candidates[e]];
@@ -133,16 +105,6 @@ double unnoticed(const Problem& problem, const Candidate& candidate,
   return per_row * rows;
 }
 
-// True if the deviance without the effect is really higher: by a fraction of the linear gain in total, or
-// consistently over the trials.
-bool comes_true(const Fit& without, const Fit& with, double linear_gain) {
-  if (without.deviance - with.deviance > kComesTrue * linear_gain) return true;
-  std::vector<double> drops;
-  for (std::size_t t = 0; t < with.trial_deviance.size(); ++t)
-    drops.push_back(without.trial_deviance[t] - with.trial_deviance[t]);
-  return signed_rank_p_value(drops) < kFlips;
-}
-
 // Columns of one effect in a trial's Gram matrix, whose column 0 is the residual.
 struct EffectColumns {
   std::vector<Index> own;          // its amplitudes
@@ -166,7 +128,7 @@ GroupGain gain_of(const std::vector<MatrixXd>& grams, const EffectColumns& effec
     trials[t].gram = back.transpose() * grams[t](columns, columns) * back;
   std::vector<Index> first(effect.own.size());
   std::iota(first.begin(), first.end(), Index{1});
-  return group_gain(eliminated(trials, 1 + own, others, effect.others_prior), first, 0.01);
+  return group_gain(eliminated(trials, 1 + own, others, effect.others_prior), first, kPriorOfAmplitude);
 }
 
 // The trials' Gram matrices without `forms`, the form errors of other effects.
@@ -273,17 +235,11 @@ void Search::judge(SetFit& result) {
   }
   if (late_together(*problem_, point.hypothesis)) result.sound = false;
   result.dispersion = count > 0.0 ? std::max(1.0, dispersion / count) : 1.0;
-  const bool enough = static_cast<double>(problem_->trials.size()) >= kTrialsToFlip;
-  const bool alone = enough && result.set.size() == 1;
   const auto strongest = std::ranges::min_element(result.evidence, {}, &EffectEvidence::p_value);
   for (std::size_t e = 0; e < result.evidence.size(); ++e) {
     auto& evidence = result.evidence[e];
-    const bool beside = &evidence != &*strongest && problem_->trials.size() >= kTrialsToDoubt &&
-                        problem_->plant->form_error() >= kFormInDoubt;
-    const double significance = beside ? kSignificanceBeside : alone ? kSignificanceAlone : kSignificance;
     const auto parent = without(result.set, evidence.candidate);
     const auto fitted = sets_.find(parent);
-    const bool came_true = fitted == sets_.end() || comes_true(fitted->second.fit, result.fit, evidence.gain);
     const double drop =
         fitted == sets_.end() ? evidence.gain : fitted->second.fit.deviance - result.fit.deviance;
     // Flip signs at the set without this effect, against all candidates there. If the linear gain at the fit
@@ -296,37 +252,29 @@ void Search::judge(SetFit& result) {
         rivals.push_back(s.evidence);
       }
       if (!rivals.empty()) evidence.flip_p_value = sign_flip_p_value(rivals, chosen, 1);
-      if (drop > kMostlyTrue * evidence.gain)
+      if (is_mostly_true(drop, evidence.gain))
         evidence.flip_p_value =
             std::min(evidence.flip_p_value, static_cast<double>(problem_->candidates.size()) *
                                                 sign_flip_p_value({evidence.evidence}, 0, 1));
     } else {
       evidence.flip_p_value = 0.0;
     }
-    // If the effect removes an offset that a nuisance had in all trials, that offset is the evidence, not the
-    // deviance.
-    const bool hidden = fitted != sets_.end() && unbends(fitted->second.fit, result.fit);
-    // The flips are evaluated without the effect, where the simulation may not be linear in a large effect. A
-    // large effect with a very small p-value at the fit itself needs no flips. Flips also have little power
-    // if a few trials carry nearly all information.
-    const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
-    const bool far = evidence.gain > kFarShare * (null().fit.deviance - result.fit.deviance);
-    const bool beyond_doubt = (far || !flips_can_tell || hidden) &&
-                              evidence.p_value < (flips_can_tell ? kBeyondDoubt : kWithoutFlips) &&
-                              (hidden || drop > kMostlyTrue * evidence.gain);
-    const bool flips_decide = enough && !beyond_doubt;
-    const double flip_needed = flips_decide ? kFlips : 1.0;
-    evidence.weak = !(evidence.p_value < kSignificance);
-    const double smallest = evidence.gain > kUnmistakablePerRow * problem_->rows() ? 0.0 : kSmallestOfTypical;
-    const double lost = std::min(evidence.gain, drop);
-    evidence.too_small = evidence.typicals < smallest;
-    evidence.unnoticed = !hidden && lost < unnoticed(*problem_, problem_->candidates[evidence.candidate],
-                                                     channels_read(*problem_, point.hypothesis, e));
-    if (!(evidence.p_value < significance) || evidence.flip_p_value > flip_needed || evidence.at_bound ||
-        !came_true)
-      result.sound = false;
-    result.needed = result.needed && result.sound && !evidence.too_small && !evidence.unnoticed;
-    if (evidence.p_value > kHopeless || evidence.typicals < 0.5 * smallest) result.hopeless = true;
+    const bool has_parent = fitted != sets_.end();
+    const Need need = need_of(
+        evidence, {.trials = problem_->trials.size(),
+                   .effects = result.set.size(),
+                   .rows = problem_->rows(),
+                   .form_error = problem_->plant->form_error(),
+                   .is_strongest = &evidence == &*strongest,
+                   .drop = drop,
+                   .came_true = !has_parent || comes_true(fitted->second.fit, result.fit, evidence.gain),
+                   .removes_offset = has_parent && unbends(fitted->second.fit, result.fit),
+                   .explained = null().fit.deviance - result.fit.deviance,
+                   .between_programs = unnoticed(*problem_, problem_->candidates[evidence.candidate],
+                                                 channels_read(*problem_, point.hypothesis, e))});
+    result.sound = result.sound && need.is_sound;
+    result.needed = result.needed && result.sound && need.is_needed;
+    result.hopeless = result.hopeless || need.is_hopeless;
   }
 }
 

@@ -1,18 +1,21 @@
 #pragma once
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "tools/diagnose/evidence/limits.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 
 // Helpers shared by the search over sets (search.cpp), its choice (search_choice.cpp) and its judge
 // (search_judge.cpp).
 namespace sandhopper::diagnose {
 
-inline constexpr double kSignificance = 0.01;  // Family-wise p-value.
 // Smallest amplitude that is named, in typical sizes.
 inline constexpr double kSmallestOfTypical = 0.08;
-inline constexpr double kWorthAFit = 6.0;  // Smallest drop of the deviance that justifies a fit.
+// Smallest drop of the deviance that justifies a fit: with a smaller one two sets can be exchanged.
+inline const double kWorthAFit = 2.0 * std::log(kLimits.exchangeable);
 // Sets within this fraction of the explained deviance are extended or used as start points.
 inline constexpr double kNearlyAsGood = 0.35;
 inline constexpr double kRival =
@@ -22,6 +25,9 @@ inline constexpr double kRival =
 inline constexpr FitOptions kRough{.max_iterations = 6, .tolerance = 2.0, .refresh = false};
 // Settings for the completed fit of a costly plant: 0.5 in each of 12 trials is kWorthAFit.
 inline constexpr FitOptions kCostly{.tolerance = 0.5, .own_gain = 0.5};
+
+// Start sizes of effects whose derivative at zero does not lead to them, in typical sizes.
+inline constexpr std::array kCommonSizes{0.5, 2.0, -0.5, -2.0};
 
 // The set without one candidate.
 inline std::vector<std::size_t> without(std::vector<std::size_t> set, std::size_t candidate) {

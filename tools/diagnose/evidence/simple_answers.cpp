@@ -8,17 +8,10 @@
 #include "tools/diagnose/fit/linearise.hpp"
 
 namespace sandhopper::diagnose {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Prior information of a size in typical sizes. It only matters for combinations that the data do not
-// determine.
-constexpr double kAnswerInformation = 0.01;
-
-}  // namespace
 
 SimpleAnswers simple_answers(const Problem& problem, const Point& null) {
   SimpleAnswers answers;
@@ -41,7 +34,8 @@ SimpleAnswers simple_answers(const Problem& problem, const Point& null) {
   const double whole = std::max(gram(0, 0), 1e-300);
   const VectorXd score = gram.col(0).tail(k);
   MatrixXd information = gram.bottomRightCorner(k, k);
-  information.diagonal().array() += kAnswerInformation;
+  // The prior only matters for combinations that the data do not determine.
+  information.diagonal().array() += kPriorOfAmplitude;
   const VectorXd all = information.ldlt().solve(score);
   for (Index i = 0; i < k; ++i) {
     const auto& id = problem.candidates[static_cast<std::size_t>(i)].effect->id;

@@ -12,6 +12,10 @@ namespace sandhopper::diagnose {
 // at_bound: converged with the first parameter of an effect at one of its bounds.
 enum class FitStatus : std::uint8_t { converged, at_bound, failed };
 
+// Prior of an amplitude: standard deviation in typical sizes, and its information.
+inline constexpr double kPriorTypicals = 10.0;
+inline constexpr double kPriorOfAmplitude = 1.0 / (kPriorTypicals * kPriorTypicals);
+
 // Joint fit of effects, tolerances and all nuisances (zeta) through the simulation. Levenberg-Marquardt
 // minimises
 //   Phi = 1/2 sum_t |W (y - yhat)|^2 + 1/2 |beta / (10 typical)|^2 + 1/2 |tolerance|^2

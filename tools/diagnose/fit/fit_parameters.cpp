@@ -13,7 +13,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPriorTypicals = 10.0;   // prior standard deviation of an amplitude, in typical sizes
 constexpr double kDerivativeStep = 0.02;  // in typical sizes of the parameter
 constexpr double kLawStep = 0.01;         // in scales of the free law's port
 
@@ -49,7 +48,7 @@ void add_priors(const Problem& problem, const Point& point, MatrixXd& informatio
     for (std::size_t j = 0; j < parameters.size(); ++j, ++at) {
       const bool amplitude = is_amplitude(parameters, j);
       const double centre = amplitude ? 0.0 : parameters[j].typical;
-      const double weight = amplitude ? 1.0 / (kPriorTypicals * kPriorTypicals) : 1.0;
+      const double weight = amplitude ? kPriorOfAmplitude : 1.0;
       information(at, at) += weight;
       score[at] -= weight * (point.hypothesis.values[i][j] - centre) / parameters[j].typical;
     }
@@ -110,7 +109,7 @@ VectorXd prior_information(const Problem& problem, const Point& point) {
   constexpr double kHeld = 1e12;  // prior information that fixes a tolerance at its bound
   const auto own = static_cast<Index>(point.hypothesis.parameters());
   const auto tolerances = static_cast<Index>(problem.tolerances.size());
-  VectorXd prior = VectorXd::Constant(own + tolerances, 1.0 / (kPriorTypicals * kPriorTypicals));
+  VectorXd prior = VectorXd::Constant(own + tolerances, kPriorOfAmplitude);
   for (Index i = 0; i < tolerances; ++i)
     prior[own + i] = std::abs(point.tolerances[static_cast<std::size_t>(i)]) < kMostTolerance ? 1.0 : kHeld;
   return prior;

@@ -244,7 +244,7 @@ void update_noise(Problem& problem, const Point& point) {
     score += trial.gram.col(0).tail(k);
   }
   MatrixXd held = information;
-  for (Index i = 0; i < k; ++i) held(i, i) += i < own ? 0.01 : 0.04;
+  for (Index i = 0; i < k; ++i) held(i, i) += i < own ? kPriorOfAmplitude : 0.04;
   const auto solver = held.ldlt();
   const VectorXd size = solver.solve(score);
   double taken_up = solver.solve(information).trace();
