@@ -55,11 +55,11 @@ TEST(DiagnoseSpread, TheNumberThatTookTheMismatchUpBeforeIsNamedBesideTheErrors)
   d.effects = {{.id = "rig.compliance", .port = "rig", .statement = "", .equation = "", .parameters = {}}};
   d.fits = {{.channel = "force_N", .train = {}, .heldout = {0.71, 0.72}, .floor = 1.0}};
   d.trial_to_trial = {area_stiffness(-0.2, 0.01, false)};
-  EXPECT_THAT(to_text(d), HasSubstr("before, stiffness_per_area had to differ by -9 +- 8.0 % between trials "
-                                    "(stated 3.8 %); after by 1.0 +- 1.0 %"));
+  EXPECT_THAT(to_text(d), HasSubstr("before, stiffness_per_area had to move by -9.0 +- 8.0 % over the trials "
+                                    "(stated sd 3.8 %); after, by 1.0 +- 1.0 %"));
   EXPECT_THAT(to_text(d), Not(HasSubstr("No channel's error")));
   d.trial_to_trial.front().values.back().exceeds_before = false;
-  EXPECT_THAT(to_text(d), Not(HasSubstr("had to differ")));
+  EXPECT_THAT(to_text(d), Not(HasSubstr("had to move")));
   EXPECT_THAT(to_text(d), HasSubstr("No channel's error"));
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/calibrate/write.hpp"
+#include "tools/report/digits.hpp"
 
 namespace sandhopper::calibrate {
 namespace {
@@ -13,8 +14,9 @@ StudyTable values_table(const Outcome& outcome) {
   table.whole = true;
   for (const auto& target : outcome.targets)
     for (const auto& value : target.values)
-      table.rows.push_back({value.key, value.unit, fmt::format("{:.6g}", value.before), value_text(value),
-                            value.ci95 > 0.0 ? fmt::format("{:.2g}", value.ci95) : "exact"});
+      table.rows.push_back({value.key, value.unit, plain_number(value.before, 6),
+                            digits_by(value.after, value.ci95).value_or(value_text(value)),
+                            value.ci95 > 0.0 ? plain_number(value.ci95, 2) : "exact"});
   return table;
 }
 
@@ -28,7 +30,7 @@ Study page_of(const Outcome& outcome, const std::string& name, const std::string
   study.verdict_mark = good ? "good" : "bad";
   study.facts = {{"date", date},
                  {"points", std::to_string(outcome.points)},
-                 {"residual, rms", fmt::format("{:.3g} {}", outcome.residual_rms, outcome.residual_unit)}};
+                 {"residual, rms", plain_number(outcome.residual_rms, 3) + " " + outcome.residual_unit}};
   for (const auto& refusal : outcome.refusals)
     study.warnings.push_back(fmt::format("{}: {}. Cure: {}.", refusal.reason, refusal.text, refusal.cure));
   for (const auto& note : outcome.notes) study.warnings.push_back("Note: " + note + ".");

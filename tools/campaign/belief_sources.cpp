@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <type_traits>
@@ -220,19 +221,34 @@ std::vector<Finding> unused_key_notes(const Campaign& campaign) {
   return notes;
 }
 
-double usual_error(const UsedNumber& n) {
-  constexpr double kGravityOverTheEarth_mps2 = 0.027;  // 9.780 at the equator to 9.832 at the poles (WGS 84)
-  const double size = std::max(std::abs(n.low), std::abs(n.high));
-  if (n.source == UsedNumber::Source::plant_default)
-    return n.key == "gravity_mps2" ? kGravityOverTheEarth_mps2 : size;
-  const auto text = fmt::format("{}", size);  // shortest text that gives the same number
+namespace {
+
+// Twelve digits: more than anybody writes, and fewer than a change of unit gets wrong.
+std::string as_written(double size) { return fmt::format("{:.12g}", size); }
+
+double half_of_last_digit(double size) {
+  const auto text = as_written(size);
   const auto exponent_at = text.find('e');
   const int exponent = exponent_at == std::string::npos ? 0 : std::stoi(text.substr(exponent_at + 1));
   const auto digits = text.substr(0, exponent_at);
   const auto point = digits.find('.');
   const int decimals = point == std::string::npos ? 0 : static_cast<int>(digits.size() - point) - 1;
-  const bool is_whole = point == std::string::npos || digits.substr(point) == ".0";
-  return 0.5 * std::pow(10.0, exponent - (is_whole ? 0 : decimals));
+  return 0.5 * std::pow(10.0, exponent - decimals);
+}
+
+}  // namespace
+
+double usual_error(const UsedNumber& n) {
+  constexpr double kGravityOverTheEarth_mps2 = 0.027;  // 9.780 at the equator to 9.832 at the poles (WGS 84)
+  const double size = std::max(std::abs(n.low), std::abs(n.high));
+  if (n.source == UsedNumber::Source::plant_default)
+    return n.key == "gravity_mps2" ? kGravityOverTheEarth_mps2 : size;
+  if (n.key.ends_with("_area_m2") && size > 0.0) {  // A = pi d^2 / 4 of a stated diameter: dA / A = 2 dd / d
+    const double diameter_m = 2.0 * std::sqrt(size / std::numbers::pi);
+    if (as_written(diameter_m).size() < as_written(size).size())
+      return 2.0 * size * half_of_last_digit(diameter_m) / diameter_m;
+  }
+  return half_of_last_digit(size);
 }
 
 bool is_listed(const UsedNumber& n) {

@@ -23,6 +23,7 @@
 #include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/evidence/form_error_evidence.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
+#include "tools/report/digits.hpp"
 
 namespace sandhopper::cli {
 namespace {
@@ -87,11 +88,13 @@ void tell_belief(Session& session, const UsedNumbers& used,
     std::string shows;
     if (found != numbers.end() && std::isfinite(found->error_that_shows) && found->error_that_shows > 0.0)
       shows = fmt::format(
-          "; an error of {:.2g} would show{}", found->error_that_shows,
-          found->matters() ? fmt::format(", and {:.2g} is usual: it matters", found->usual_error) : "");
+          "; an error of {} would show{}", plain_number(found->error_that_shows, 2),
+          found->matters() ? fmt::format(", and {} is usual: it matters", plain_number(found->usual_error, 2))
+                           : "");
     if (found != numbers.end() && found->known_sd > 0.0)
-      shows += fmt::format("; known to {:.2g}, and beside what was found these recordings ask for {:+.2g}",
-                           found->known_sd, found->asked_for);
+      shows += fmt::format("; known to {}, and beside what was found these recordings ask for {}{}",
+                           plain_number(found->known_sd, 2), found->asked_for < 0.0 ? "" : "+",
+                           plain_number(found->asked_for, 2));
     session.say("belief {}{}", to_string(number), shows);
   }
   if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("belief {}", defaults);

@@ -69,17 +69,19 @@ StudyTable pooled_table(const std::vector<PooledQuantity>& pooled) {
           "never counted as independent."};
   for (const auto& q : pooled) {
     const double scale = page_scale(q.name);
-    table.rows.push_back({figure_title(q.name), figure_unit(q.name),
-                          value_text(scale * q.value, scale * q.ci95_low, scale * q.ci95_high),
-                          interval_text(scale * q.ci95_low, scale * q.ci95_high),
-                          value_text(scale * q.standard_deviation, 0.0, 2.0 * scale * q.standard_deviation),
-                          fmt::format("{}", q.trials)});
+    table.rows.push_back(
+        {figure_title(q.name), figure_unit(q.name),
+         value_text(scale * q.value, scale * q.ci95_low, scale * q.ci95_high),
+         interval_text(scale * q.ci95_low, scale * q.ci95_high),
+         q.trials < 2 ? std::string("–")
+                      : value_text(scale * q.standard_deviation, 0.0, 2.0 * scale * q.standard_deviation),
+         fmt::format("{}", q.trials)});
   }
   return table;
 }
 
 StudySection findings_section(const std::vector<FindingGroup>& findings) {
-  StudySection section{.title = "Bad input"};
+  StudySection section{.title = "Recordings: faults and remarks"};
   if (findings.empty()) {
     section.items.emplace_back(std::string("Nothing was wrong with the recordings."));
     return section;
@@ -129,8 +131,8 @@ StudySection trials_section(const CampaignResults& results) {
                             ? in_words(q.name, figure_number(page_scale(q.name) * q.value))
                             : fmt::format("{}: none, {}", figure_title(q.name), spaced(q.invalid)));
     table.rows.push_back({result.trial, result.usable ? result.kind : result.kind + " (not usable)",
-                          fmt::format("{}", fmt::join(setup, "; ")),
-                          fmt::format("{}", fmt::join(figures, "; "))});
+                          fmt::format("{}", fmt::join(setup, "\n")),
+                          fmt::format("{}", fmt::join(figures, "\n"))});
   }
   if (results.results.size() > kMostRows)
     table.note = fmt::format("The first {} of {} trials; all are in the JSON file.", kMostRows,
@@ -190,7 +192,7 @@ CampaignReport report_on(const CampaignResults& results) {
         fmt::format("This is part {} of {} of the campaign; merge the parts for its conclusions.",
                     results.part, results.parts));
   if (usable < results.results.size())
-    study.warnings.push_back(fmt::format("{} of {} trials cannot be used; see Bad input.",
+    study.warnings.push_back(fmt::format("{} of {} trials cannot be used; see Recordings.",
                                          results.results.size() - usable, results.results.size()));
   auto pooled = Json::object(), by_setup = Json::object(), conclusions = Json::object();
   for (const auto* analysis : all_analyses()) {

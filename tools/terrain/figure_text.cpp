@@ -8,6 +8,7 @@
 
 #include "config/hint.hpp"
 #include "tools/report/digits.hpp"
+#include "tools/report/unit_text.hpp"
 
 namespace sandhopper {
 
@@ -18,13 +19,19 @@ std::string rounded_text(double value) {
 
 std::string figure_number(double value) {
   if (!std::isfinite(value)) return "–";
+  // Figures are of the order of 1 in their units: what is smaller than this is the rounding of their sums.
+  constexpr double kRounding = 1e-9;
   const double size = std::abs(value);
-  if (size >= 1000.0 && size < 1e7) return fmt::format("{:.0f}", value);
+  if (size < kRounding) return "0";
+  if (size >= 1000.0 && size < 1e7) {  // four digits, without an exponent
+    const double unit = std::pow(10.0, std::floor(std::log10(size)) - 3.0);
+    return fmt::format("{:.0f}", unit * std::round(value / unit));
+  }
   return fmt::format("{:.4g}", value);
 }
 
 std::string interval_text(double low, double high) {
-  if (!std::isfinite(low) || !std::isfinite(high)) return "one trial: no interval";
+  if (!std::isfinite(low) || !std::isfinite(high)) return "no interval";
   return fmt::format("{} to {}", value_text(low, low, high), value_text(high, low, high));
 }
 
@@ -54,7 +61,7 @@ double page_scale(std::string_view name) {
 std::string figure_unit(std::string_view name) {
   if (page_scale(name) != 1.0) return "mm";
   const auto unit = unit_of_key(name);
-  return unit.empty() ? "–" : unit;
+  return unit.empty() ? "–" : with_powers(std::string(unit));
 }
 
 std::string trial_label(std::string_view trial) { return std::filesystem::path(trial).stem().string(); }

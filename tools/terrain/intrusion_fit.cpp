@@ -54,9 +54,10 @@ RigResult judge_rig(std::span<const PressTrial> trials) {
     out.why = "There is no trial on a rigid stop; the rig counts as rigid.";
   } else if (out.bed_unloading_N_per_m.trials > 0 && bed < 0.5 * stop) {
     out.why =
-        "Relieved in the bed, the rig gives back far less displacement than on the stop. What yields on the "
-        "stop is therefore not between displacement sensor and plate when the plate is in the bed, and its "
-        "compliance is not taken off.";
+        "Unloaded in the bed, the rig springs back far less than on the stop. So the part that yields on the "
+        "stop does not lie between displacement sensor and plate while the plate is in the bed. Its "
+        "compliance "
+        "is not taken off the depth.";
   } else {
     out.compliance_used_m_per_N = stop;
     out.why = "What the rig yields on the stop is taken off the recorded depth.";

@@ -73,21 +73,26 @@ StudyTable parameter_table(const LegIdentification& leg) {
   for (std::size_t i = 0; i < kLegParameters; ++i) {
     const auto& p = kParameters[i];
     table.rows.push_back(
-        {p.title, p.unit, figure_number(p.scale * leg.value[i]),
+        {p.title, p.unit,
+         value_text(p.scale * leg.value[i], p.scale * leg.interval[i].ci95_low,
+                    p.scale * leg.interval[i].ci95_high),
          interval_text(p.scale * leg.interval[i].ci95_low, p.scale * leg.interval[i].ci95_high)});
   }
   if (leg.has_spring)
     table.rows.push_back(
-        {"spring beside the motor, k", "N m/rad", figure_number(leg.spring_stiffness_Nm_per_rad),
+        {"spring beside the motor, k", "N m/rad",
+         value_text(leg.spring_stiffness_Nm_per_rad, leg.spring_stiffness_interval.ci95_low,
+                    leg.spring_stiffness_interval.ci95_high),
          interval_text(leg.spring_stiffness_interval.ci95_low, leg.spring_stiffness_interval.ci95_high)});
-  table.rows.push_back({"mass, from the plate's impulse over a cycle", "kg", figure_number(leg.mass_kg.value),
+  table.rows.push_back({"mass, from the plate's impulse over a cycle", "kg",
+                        value_text(leg.mass_kg.value, leg.mass_kg.ci95_low, leg.mass_kg.ci95_high),
                         interval_text(leg.mass_kg.ci95_low, leg.mass_kg.ci95_high)});
   table.rows.push_back({"plate's reading in flight, taken off", "N", figure_number(leg.tare_N), "–"});
   table.note = fmt::format(
       "Intervals: bootstrap with whole hops drawn; mass: Student's t over hops. A foot's weight in addition "
       "would be fitted as {} kg ({}), which torque scale and friction can stand in for: not told apart, not "
       "used. A spring beside the motor is {}: hops left out are {} N off with it, {} N without.",
-      figure_number(leg.foot_mass_kg),
+      value_text(leg.foot_mass_kg, leg.foot_mass_interval.ci95_low, leg.foot_mass_interval.ci95_high),
       interval_text(leg.foot_mass_interval.ci95_low, leg.foot_mass_interval.ci95_high),
       leg.has_spring ? "taken in" : "not needed", newtons(leg.with_spring_N), newtons(least_left_out(leg)));
   return table;

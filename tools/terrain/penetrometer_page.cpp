@@ -53,10 +53,11 @@ double greatest_resistance(const PenetrometerDrop& drop) {
 }
 
 StudyTable drop_table(const std::vector<PenetrometerDrop>& drops) {
-  StudyTable table{.title = "Drops",
-                   .columns = {"drop", "speed at touchdown, m/s", "depth, mm",
-                               "greatest resistance per mass, m/s²", "greatest resistance, N",
-                               "speed before the release, m/s", "fallen, m", "fallen by pressure, m"}};
+  StudyTable table{
+      .title = "Drops",
+      .columns = {"drop", "speed at touchdown, m/s", "depth, mm", "greatest resistance per mass, m/s²",
+                  "greatest resistance, N", "speed before the release, m/s", "fall height, m",
+                  "fall height by pressure, m"}};
   for (const auto& drop : drops) {
     const auto low = with_mass(drop, drop.mass_min_kg), high = with_mass(drop, drop.mass_max_kg);
     const double greatest = greatest_resistance(drop);
@@ -72,7 +73,7 @@ StudyTable drop_table(const std::vector<PenetrometerDrop>& drops) {
       "bias is "
       "known. The body hung at rest before the release: the speed that the integral gives there is its "
       "error. "
-      "Forces for both ends of the range of the mass. The pressure's way is a check, used for nothing: "
+      "Forces for both ends of the range of the mass. The height by pressure is only a check: "
       "its sensor lags, and the bed has a pressure of its own.";
   return table;
 }
@@ -110,8 +111,9 @@ StudyTable sensor_table(const std::vector<PenetrometerDrop>& drops) {
                             fmt::format("{}", c.saturated_samples)});
     }
   table.note =
-      "Scale and bias against the reference, the quietest that never saturates; at each instant the quietest "
-      "that is neither saturated nor off speaks. The reference's own scale is not told by the drop.";
+      "Scale and bias are relative to the reference: the least noisy accelerometer that never saturates. At "
+      "each instant the least noisy one is used that is neither saturated nor off. The drop cannot show the "
+      "scale of the reference itself.";
   return table;
 }
 
@@ -206,16 +208,15 @@ std::string untold(const PenetrometerFit& fit, const std::vector<PenetrometerDro
     correlations += fmt::format("{}{:.2f}", correlations.empty() ? "" : ", ", c);
   const auto& drop = drops.front();
   return fmt::format(
-      "What cannot be told: the force in newtons better than the mass is known ({:.3g} to {:.3g} kg: the "
-      "same "
-      "factor as between the moving masses above); depth and speed apart where one drop is all there is, "
-      "since "
-      "speed falls while depth grows (correlation of ln z and ln v {}), so that exponents of depth and rate "
-      "trade against each other; whether the bed's strength or a change with depth of its kind makes n; "
-      "added "
-      "mass of the bed, which lowers and raises the same curve. Where touchdown is gradual, zero depth is "
-      "uncertain by a centimetre or two. Not explained: sharp peaks of hard inclusions or layers, which no "
-      "smooth law has.",
+      "These drops cannot tell: (1) the force in newtons better than the mass is known, {:.3g} to {:.3g} kg; "
+      "(2) in one drop, depth from speed, because the speed falls while the depth grows (correlation of ln z "
+      "and "
+      "ln v: {}), so a larger exponent of depth looks like a smaller exponent of speed; (3) a bed whose kind "
+      "changes with depth from one whose strength grows with depth: both give the exponent n; (4) the added "
+      "mass "
+      "of the bed, which changes the same curve. If touchdown is gradual, zero depth is uncertain by a "
+      "centimetre or two. Not explained: sharp peaks from hard inclusions or layers, which no smooth law "
+      "has.",
       drop.mass_min_kg, drop.mass_max_kg, correlations);
 }
 

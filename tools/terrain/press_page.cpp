@@ -156,7 +156,7 @@ StudyFigure force_figure(const IntrusionFit& fit, std::span<const PressTrial> tr
 }
 
 StudyFigure rig_figure(std::span<const PressTrial> trials) {
-  StudyFigure figure{.title = "The rig on a rigid stop, and relieved in the bed",
+  StudyFigure figure{.title = "Unloading: the rig on a rigid stop, and in the bed",
                      .x_label = "displacement from the greatest force, mm",
                      .y_label = "force, N"};
   for (const auto& trial : trials) {
@@ -199,12 +199,14 @@ std::string rig_text(const RigResult& rig) {
   std::string text = rig.why;
   if (rig.stop_compliance_m_per_N.trials > 0)
     text += fmt::format(
-        " On the stop: {} µm/N above a quarter of the greatest force, after a toe of {} mm; relieved at {} "
-        "N/m.",
+        " On the stop: compliance {} µm/N above a quarter of the greatest force, after a soft start of {} "
+        "mm; "
+        "unloading stiffness {} N/m.",
         mean_text(rig.stop_compliance_m_per_N, 1e6), mean_text(rig.toe_m, 1e3),
         mean_text(rig.stop_unloading_N_per_m, 1.0));
   if (rig.bed_unloading_N_per_m.trials > 0)
-    text += fmt::format(" In the bed: relieved at {} N/m.", mean_text(rig.bed_unloading_N_per_m, 1.0));
+    text +=
+        fmt::format(" In the bed: unloading stiffness {} N/m.", mean_text(rig.bed_unloading_N_per_m, 1.0));
   return text;
 }
 
@@ -214,7 +216,7 @@ std::string area_text(const std::vector<AreaExponent>& area) {
     text += fmt::format("{}{:.0f} mm: {} ({})", text.empty() ? "" : "; ", 1e3 * a.depth_m,
                         value_text(a.exponent.value, a.exponent.ci95_low, a.exponent.ci95_high),
                         interval_text(a.exponent.ci95_low, a.exponent.ci95_high));
-  return fmt::format("Force in proportion to A^p at one depth{}: p at {}.",
+  return fmt::format("Exponent p of the plate's area A, if force ~ Aᵖ at one depth{}: p at {}.",
                      area.front().from_held_out ? " (found afterwards, with the held-out plates)" : "", text);
 }
 

@@ -84,12 +84,12 @@ StudyFigure group_figure(const CurveGroup& group) {
     figure.marks.push_back({1e3 * all_m, "all trials to here"});
   figure.note =
       "Inner band: 95 % interval of the mean of the ground that the trials were drawn from. Outer band: 95 % "
-      "interval of one new trial's curve. Each is pointwise and drawn where three trials or more were, with "
-      "two trials where both were.";
+      "interval of one new trial's curve. Both hold depth by depth. They are drawn where at least three "
+      "trials "
+      "reached, or of two trials both.";
   if (!figure.marks.empty())
     figure.note +=
-        " Deeper than the dotted line only the trials that went so deep count, which may be those on weaker "
-        "ground.";
+        " Below the dotted line only some trials are left: the deeper ones, perhaps on weaker ground.";
   return figure;
 }
 

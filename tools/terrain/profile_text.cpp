@@ -52,7 +52,7 @@ std::string in_interval(double value, double low, double high) {
 }
 
 std::string limits(double low, double high, double scale) {
-  if (!std::isfinite(low) || !std::isfinite(high)) return "[one trial: none]";
+  if (!std::isfinite(low) || !std::isfinite(high)) return "[–]";
   return fmt::format("[{}, {}]", in_interval(scale * low, scale * low, scale * high),
                      in_interval(scale * high, scale * low, scale * high));
 }
@@ -99,7 +99,7 @@ double share_of(const std::vector<CurveInBand>& trials) {
 std::string width_text(const std::vector<CurveInBand>& trials) {
   double width = 0.0;
   for (const auto& t : trials) width += t.half_width / static_cast<double>(trials.size());
-  return fmt::format("that band is ±{:.0f} % wide", 100.0 * width);
+  return fmt::format("that band is ±{:.0f} % wide on average", 100.0 * width);
 }
 
 std::string inside_text(const std::vector<CurveInBand>& trials) {
@@ -108,8 +108,8 @@ std::string inside_text(const std::vector<CurveInBand>& trials) {
   for (const auto& t : trials)
     if (shares.size() < 6) shares.push_back(fmt::format("{:.0f}", 100.0 * t.share()));
   const std::string_view more = trials.size() > shares.size() ? ", …" : "";
-  return fmt::format("{} of {} depths = {:.0f} % ({}{} % trial by trial)", inside, depths,
-                     100.0 * share_of(trials), fmt::join(shares, ", "), more);
+  return fmt::format("{} of {} depths ({:.0f} %; by trial {}{} %)", inside, depths, 100.0 * share_of(trials),
+                     fmt::join(shares, ", "), more);
 }
 
 std::string table_line(const PooledDepth& p) {
@@ -175,8 +175,10 @@ std::string shapes_text(const CurveGroup& g) {
 
 std::string left_out_text(const CurveGroup& g) {
   if (g.left_out.empty()) return "";
-  return fmt::format("Each trial in the band of one new trial made of the other {}: {}; {}.",
-                     g.curves.size() - 1, inside_text(g.left_out), width_text(g.left_out));
+  return fmt::format(
+      "Check: each trial left out in turn lies in the band of one new trial that the other {} give at {}; "
+      "{}.",
+      g.curves.size() - 1, inside_text(g.left_out), width_text(g.left_out));
 }
 
 // Exponent of the area with which the predicted force would match the held-out force on average.
@@ -184,8 +186,9 @@ std::string area_power_text(const ProfilePrediction& p, double ratio) {
   const double area = std::pow(p.diameter_m / p.from_diameter_m, 2);
   if (p.law != kAreaLaw || std::abs(area - 1.0) < 0.01 || !(ratio > 0.0)) return "";
   return fmt::format(
-      " The law says power 1 of the area, these trials {:.2f} on average: a floor, a wall or a layer near "
-      "the plate makes it more, a bed that hardens with depth less.",
+      " This law lets the force grow with the area to the power 1; these trials give the power {:.2f}. A "
+      "floor, a "
+      "wall or a layer near the plate raises it, a bed that hardens with depth lowers it.",
       1.0 + std::log(ratio) / std::log(area));
 }
 
@@ -193,7 +196,8 @@ std::string prediction_text(const ProfilePrediction& p) {
   double ratio = 0.0;
   for (const auto& t : p.trials) ratio += t.force_ratio / static_cast<double>(p.trials.size());
   return fmt::format(
-      "{} mm from {} mm, {} ({}): {} in the band of one new trial; {}. Their force is {} the "
+      "{} mm from {} mm, {} ({}): the held-out trials lie in the band of one new trial at {}; {}. Their "
+      "force is {} the "
       "predicted one.{}",
       mm_text(p.diameter_m), mm_text(p.from_diameter_m), p.law, p.text, inside_text(p.trials),
       width_text(p.trials), std::isfinite(ratio) ? fmt::format("{:.2f} times", ratio) : "–",

@@ -8,6 +8,7 @@
 #include "estimation/leg.hpp"
 #include "terrain/profile_config.hpp"
 #include "terrain/trial_statistics.hpp"
+#include "tools/report/digits.hpp"
 #include "tools/terrain/figure_text.hpp"
 #include "tools/terrain/leg_regression.hpp"
 #include "tools/terrain/mean_json.hpp"
@@ -87,6 +88,16 @@ RigidGround rigid_ground(std::span<const LegHop> hops, double tare_N, double mas
   return out;
 }
 
+namespace {
+
+// Rounded down, so that the ground is at least as stiff as the text says.
+double two_digits_below(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return unit * std::floor(value / unit);
+}
+
+}  // namespace
+
 std::string rigid_answer(const RigidGround& ground) {
   if (!(ground.at_least_N_per_m > 0.0))
     return "Nothing here bounds the stiffness of the ground: no landing on the plate.";
@@ -96,8 +107,8 @@ std::string rigid_answer(const RigidGround& ground) {
       "The ground is {}: at least {} N/m ({} landings, in which the foot can have gone in by {:.1f} mm at "
       "most "
       "when the blow was greatest).",
-      ground.rigid() ? "rigid" : "not shown to be rigid", figure_number(ground.at_least_N_per_m),
-      ground.landings.size(), 1e3 * depth_m);
+      ground.rigid() ? "rigid" : "not shown to be rigid",
+      plain_number(two_digits_below(ground.at_least_N_per_m), 2), ground.landings.size(), 1e3 * depth_m);
 }
 
 nlohmann::ordered_json rigid_json(const RigidGround& ground) {

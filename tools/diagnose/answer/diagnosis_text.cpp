@@ -9,6 +9,7 @@
 #include "tools/diagnose/answer/spread_text.hpp"
 #include "tools/diagnose/discrepancy/left_over.hpp"
 #include "tools/diagnose/model/quantity.hpp"
+#include "tools/report/digits.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -31,8 +32,9 @@ std::string effect_text(const FoundEffect& e) {
       fmt::format("{} {} (probability {:.2f}): {}\n       {}\n", e.may_be_zero() ? "maybe " : "what  ", e.id,
                   e.probability, e.statement, e.equation);
   for (const auto& p : e.parameters)
-    text += fmt::format("       {} = {:.4g}, 95 % between {:.4g} and {:.4g}{}{}\n", p.name, p.value, p.low,
-                        p.high, p.limit ? "; " : "", p.limit_in_words());
+    text +=
+        fmt::format("       {} = {}, 95 % between {} and {}{}{}\n", p.name, plain_number(p.value, 4),
+                    plain_number(p.low, 4), plain_number(p.high, 4), p.limit ? "; " : "", p.limit_in_words());
   if (e.may_be_zero()) text += "       suspected, not found: its 95 % interval holds zero\n";
   if (!e.indistinguishable_from.empty())
     text += fmt::format("       cannot be told apart on these recordings from {}\n",
@@ -45,16 +47,17 @@ std::string where_text(const Where& w) {
   if (!w.port.empty()) text += w.port + ": ";
   text += fmt::format("{} during {}, {}", w.channel, w.phase_in_words(), w.share_in_words());
   if (!w.coordinate.empty())
-    text += fmt::format(", {} {:.3g} to {:.3g}", w.coordinate, w.range_low, w.range_high);
+    text += fmt::format(", {} {} to {}", w.coordinate, plain_number(w.range_low, 3),
+                        plain_number(w.range_high, 3));
   return text + fmt::format(", p = {:.1g}\n", w.p_value);
 }
 
 std::string error_text(const ChannelFit& f) {
   const auto unit = quantity_of(f.channel).unit;
   return fmt::format(
-      "error  {}: {} on held-out trials (rms {:.4g} and {:.4g}; noise floor {:.4g}, noise of a sample "
-      "{:.4g}{}{})\n",
-      f.channel, times_the_floor(f.heldout, f.floor), f.heldout.before, f.heldout.after, f.floor, f.noise,
+      "error  {}: {} on held-out trials (rms {} and {}; noise floor {}, noise of a sample {}{}{})\n",
+      f.channel, times_the_floor(f.heldout, f.floor), plain_number(f.heldout.before, 4),
+      plain_number(f.heldout.after, 4), plain_number(f.floor, 4), plain_number(f.noise, 4),
       unit.empty() ? "" : ", all in ", unit);
 }
 
@@ -68,8 +71,8 @@ std::string absent_text(const std::vector<Bound>& absent) {
   if (absent.empty()) return "";
   std::string text = "absent ";
   for (std::size_t i = 0; i < absent.size() && i < kMostBounds; ++i)
-    text += fmt::format("{}{}: {} {} {:.2g}", i == 0 ? "" : "; ", absent[i].id, absent[i].parameter,
-                        absent[i].is_lower ? ">" : "<", absent[i].value);
+    text += fmt::format("{}{}: {} {} {}", i == 0 ? "" : "; ", absent[i].id, absent[i].parameter,
+                        absent[i].is_lower ? ">" : "<", plain_number(absent[i].value, 2));
   if (absent.size() > kMostBounds)
     text += fmt::format("; {} more bounded closer", absent.size() - kMostBounds);
   return text + "\n";
@@ -107,8 +110,10 @@ std::string NextTrial::reason() const {
 }
 
 std::string Where::share_in_words() const {
-  return fmt::format("{:.0f} % of {}", 100.0 * share_of_excess,
-                     unexplained ? "the squared error above the noise" : "the change by what was found");
+  const bool is_small = share_of_excess < 0.005;
+  return fmt::format(
+      "{} % of {}", is_small ? "less than 1" : fmt::format("{:.0f}", 100.0 * share_of_excess),
+      unexplained ? "the squared error above the noise" : "the change that the correction makes");
 }
 
 std::string Where::phase_in_words() const {
@@ -194,11 +199,8 @@ std::string below_the_floor(const Diagnosis& d) {
 std::string headline(const Diagnosis& d) {
   const auto beyond = beyond_spread(d);
   if (d.verdict == Verdict::consistent && !beyond.empty())
-    return fmt::format(
-        "{} trials agree with the simulation: consistent only if {}. Either this spread is believed too "
-        "small, "
-        "or something that is on no list acts there.",
-        d.trials, beyond);
+    return fmt::format("{} trials agree with the simulation: consistent only if {}. {}", d.trials, beyond,
+                       otherwise(d));
   if (d.verdict == Verdict::consistent)
     return fmt::format(
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);

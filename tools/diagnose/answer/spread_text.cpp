@@ -8,6 +8,7 @@
 
 #include "tools/diagnose/answer/diagnosis_text.hpp"
 #include "tools/diagnose/model/quantity.hpp"
+#include "tools/report/digits.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -16,13 +17,16 @@ constexpr std::string_view kRelative = "_relative";
 
 double mean_square(double mean, double sd) { return mean * mean + sd * sd; }
 
-// "-9 +- 8 %"
+// "-9.0 +- 8.0 %"
 std::string mean_and_sd(const TrialToTrial& n, double mean, double sd) {
   const bool relative = n.name.ends_with(kRelative);
-  const auto unit = relative ? std::string("%") : quantity_of(n.name).unit;
-  const double scale = relative ? 100.0 : 1.0;
-  return fmt::format("{} +- {}{}{}", two_digits(scale * mean), two_digits(scale * sd),
-                     unit.empty() ? "" : " ", unit);
+  constexpr double kShort_m = 0.1;  // as measured(), which writes the stated spread beside it
+  auto unit = relative ? std::string("%") : quantity_of(n.name).unit;
+  const bool in_mm = unit == "m" && std::abs(n.believed_sd) < kShort_m;
+  if (in_mm) unit = "mm";
+  const double scale = relative ? 100.0 : in_mm ? 1e3 : 1.0;
+  const auto text = [&](double value) { return digits_by(value, scale * sd).value_or(two_digits(value)); };
+  return fmt::format("{} +- {}{}{}", text(scale * mean), text(scale * sd), unit.empty() ? "" : " ", unit);
 }
 
 std::string beyond(const TrialToTrial& n) {
@@ -68,6 +72,12 @@ std::string beyond_spread(const Diagnosis& d) {
   return text;
 }
 
+std::string otherwise(const Diagnosis& d) {
+  return std::ranges::any_of(d.trial_to_trial, &TrialToTrial::exceeds_after)
+             ? "Either this spread is believed too small, or something that is on no list acts there."
+             : "Correct what all trials share, or state the spread, and diagnose again.";
+}
+
 std::string taken_up_before(const Diagnosis& d) {
   if (d.effects.empty()) return "";
   std::string text;
@@ -75,7 +85,7 @@ std::string taken_up_before(const Diagnosis& d) {
     if (!n.exceeds_before() ||
         mean_square(n.mean_before, n.sd_before) <= mean_square(n.mean_after, n.sd_after))
       continue;
-    text += fmt::format("{}{} had to differ by {} between trials ({} {}); after by {}",
+    text += fmt::format("{}{} had to move by {} over the trials ({} sd {}); after, by {}",
                         text.empty() ? "" : "; ", subject_of(n), mean_and_sd(n, n.mean_before, n.sd_before),
                         n.is_default ? "assumed" : "stated", amount_in_words(n, n.believed_sd),
                         mean_and_sd(n, n.mean_after, n.sd_after));

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/report/digits.hpp"
+
 namespace sandhopper::diagnose {
 namespace {
 
@@ -167,19 +169,22 @@ std::string trial_in_words(const std::string& kind, std::map<std::string, std::s
 
 std::string number(double value) {
   const double magnitude = std::abs(value);
-  if (magnitude > 0.0 && (magnitude < 1e-3 || magnitude >= 1e5)) return fmt::format("{:.3g}", value);
-  return fmt::format("{:.4g}", value);
+  return plain_number(value, magnitude > 0.0 && (magnitude < 1e-3 || magnitude >= 1e5) ? 3 : 4);
 }
 
 std::string with_interval(double value, double low, double high, const std::string& unit) {
   const double half = 0.5 * std::abs(high - low);
   const std::string after = unit.empty() ? "" : " " + unit;
   if (!(half > 0.0) || !std::isfinite(half)) return number(value) + after;
-  const int digits = 1 - static_cast<int>(std::floor(std::log10(half)));
-  if (digits > 6 || digits < -4)
-    return fmt::format("{:.4g}{} (95 %: {:.4g} to {:.4g})", value, after, low, high);
-  const int shown = std::max(0, digits);
-  return fmt::format("{:.{}f}{} (95 %: {:.{}f} to {:.{}f})", value, shown, after, low, shown, high, shown);
+  const int decimals = 1 - static_cast<int>(std::floor(std::log10(half)));
+  if (decimals > 6 || decimals < 0) {
+    const auto text = [half](double number_in) {
+      return digits_by(number_in, half).value_or(number(number_in));
+    };
+    return fmt::format("{}{} (95 %: {} to {})", text(value), after, text(low), text(high));
+  }
+  return fmt::format("{:.{}f}{} (95 %: {:.{}f} to {:.{}f})", value, decimals, after, low, decimals, high,
+                     decimals);
 }
 
 }  // namespace sandhopper::diagnose

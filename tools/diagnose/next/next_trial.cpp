@@ -65,11 +65,11 @@ void show(const Problem& problem, const TrialModel& model, const Contest::Predic
   const double apart = std::abs(at.second[where] - at.first[where]);
   const auto unit = quantity_of(next.channel).unit;
   next.why = fmt::format(
-      "{} at {:.3g} s ({}): {} predicts {} {}, {} predicts {} {}; that is {:.2g} {} apart, with a noise of "
-      "{:.2g} {}.",
+      "{} at {:.3g} s ({}): {} predicts {} {}, {} predicts {} {}; that is {} {} apart, with a noise of {} "
+      "{}.",
       next.channel, row.time_s, in_words(problem.phases[row.phase]), next.first,
       to_digits_of(at.first[where], apart), unit, next.second, to_digits_of(at.second[where], apart), unit,
-      apart, unit, next.noise, unit);
+      plain_number(apart, 2), unit, plain_number(next.noise, 2), unit);
 }
 
 // Two rivals i, j of one group.
@@ -181,11 +181,12 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
     return;
   }
   take(planned[choice.trial], "sharpen", next);
-  next.why = fmt::format("narrows the interval{} of {} to {:.0f} % of {} width; an average one to {:.0f} %.",
-                         amplitudes.size() > 1 ? "s" : "",
-                         diagnosis.effects.size() > 1 ? "what was found" : diagnosis.effects.front().id,
-                         100.0 * std::exp2(-0.5 * choice.worth), amplitudes.size() > 1 ? "their" : "its",
-                         100.0 * std::exp2(-0.5 * median(choice.all)));
+  next.why =
+      fmt::format("Narrows the interval{} of {} to {:.0f} % of {} width; an average trial, to {:.0f} %.",
+                  amplitudes.size() > 1 ? "s" : "",
+                  diagnosis.effects.size() > 1 ? "what was found" : diagnosis.effects.front().id,
+                  100.0 * std::exp2(-0.5 * choice.worth), amplitudes.size() > 1 ? "their" : "its",
+                  100.0 * std::exp2(-0.5 * median(choice.all)));
 }
 
 // "map": the trial that reduces the variances of a free law's knots most.
@@ -208,8 +209,8 @@ void map_further(const Problem& problem, const PlannedTrials& planned, const Sea
   });
   take(planned[choice.trial], "map", next);
   next.why = fmt::format(
-      "maps what acts at {} further: the band along {} narrows to {:.0f} % on average; with an average one "
-      "to {:.0f} %.",
+      "Measures what acts at {} better: its band along {} narrows to {:.0f} % of its width; with an average "
+      "trial, to {:.0f} %.",
       rest.family.port, rest.family.variable, 100.0 * std::exp2(-0.5 * choice.worth),
       100.0 * std::exp2(-0.5 * median(choice.all)));
 }
@@ -232,8 +233,8 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   const Candidate& candidate = problem.candidates[widest->candidate];
   if (!few && typicals < kNarrow) {
     next.why = fmt::format(
-        "None needed: everything this plant can have is excluded beyond {:.3g} times its typical size.",
-        typicals);
+        "None needed: everything this plant can have is excluded beyond {} times its typical size.",
+        plain_number(typicals, 3));
     return;
   }
   const Point& point = search.best().fit.point;
@@ -262,16 +263,16 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   });
   if (!few && choice.worth < kWorthATrial) {
     next.why = fmt::format(
-        "None: no trial like these would exclude more. The widest bound is that of {}, {:.3g} times "
+        "None: no trial like these would exclude more. The widest bound is that of {}, {} times "
         "its typical size.",
-        candidate.label(), typicals);
+        candidate.label(), plain_number(typicals, 3));
     return;
   }
   take(planned[choice.trial], "bound", next);
   next.why = fmt::format(
-      "{} widest bound is that of {}, {:.3g} times its typical size; this trial narrows it to {:.3g} times.",
-      few ? "at least five trials are needed to know how far they repeat. The" : "the", candidate.label(),
-      typicals, typicals * std::exp2(-0.5 * choice.worth));
+      "{} widest bound is that of {}, {} times its typical size; this trial narrows it to {} times.",
+      few ? "At least five trials are needed to know how far they repeat. The" : "The", candidate.label(),
+      plain_number(typicals, 3), plain_number(typicals * std::exp2(-0.5 * choice.worth), 3));
 }
 
 // "repeat": one of the recorded trials, after the faulty sensor was repaired.

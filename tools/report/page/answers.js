@@ -4,7 +4,7 @@ function showAnswers(study) {
   const answers = document.getElementById('answers');
   verdict.hidden = !study.verdict;
   answers.hidden = !study.answers.length;
-  verdict.textContent = study.verdict;
+  verdict.textContent = setText(study.verdict);
   verdict.className = study.verdict_mark;
   for (const answer of study.answers) {
     const box = element('section', { className: 'answer' }, element('h2', {}, answer.heading));
@@ -13,7 +13,7 @@ function showAnswers(study) {
       box.style.setProperty(name, `${Math.max(0, ...answer.bars.map(bar => bar[key].length)) * 0.6 + 0.8}em`);
     }
     answer.lines.forEach((line, i) => {
-      box.append(element('p', { className: line.style }, ...(line.style === 'equation' ? mathOf(line.text) : [line.text])));
+      box.append(element('p', { className: line.style }, ...(line.style === 'equation' ? mathOf(line.text) : [setText(line.text)])));
       if (i === 0) box.append(...answer.bars.map(barOf));
     });
     answers.append(box);
@@ -24,5 +24,5 @@ function barOf(bar) {
   const ink = element('i');
   ink.style.width = `${Math.max(0.6, 100 * Math.min(1, bar.share))}%`;
   ink.style.background = `var(--${bar.color})`;
-  return element('div', { className: 'bar' }, element('span', {}, bar.label), element('div', {}, ink), element('b', {}, bar.text));
+  return element('div', { className: 'bar' }, element('span', {}, bar.label), element('div', {}, ink), element('b', {}, setText(bar.text)));
 }

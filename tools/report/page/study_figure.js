@@ -20,7 +20,7 @@ class StudyFigure {
     this.svg = svgElement('svg', { viewBox: `0 0 ${width} ${this.height}`, role: 'img', 'aria-label': figure.title });
     this.reading = element('output');
     panel.append(this.svg, this.reading);
-    if (figure.note) panel.append(element('p', {}, figure.note));
+    if (figure.note) panel.append(element('p', {}, setText(figure.note)));
     this.svg.onpointermove = event => this.hover(event);
     this.svg.onpointerleave = () => this.point(null);
     this.draw();

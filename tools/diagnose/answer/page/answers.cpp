@@ -15,7 +15,7 @@ namespace {
 using Style = StudyAnswer::Style;
 
 std::string p_text(double p) {
-  return p < 1e-4 ? "p\u00a0<\u00a00.0001" : fmt::format("p\u00a0=\u00a0{:.2g}", p);
+  return "p\u00a0" + (p < kLeastProbability ? "" : std::string("=\u00a0")) + probability_text(p);
 }
 
 std::string joined(const std::vector<std::string>& words, const char* last) {
@@ -96,19 +96,18 @@ StudyAnswer what(const Diagnosis& d) {
   if (nothing_found(d)) {
     const auto beyond = beyond_spread(d);
     box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent && !beyond.empty()
-                                            ? "Nothing, if trials differ by more than believed"
+                                            ? "Nothing, if numbers differ from what is believed"
                                         : d.verdict == Verdict::consistent        ? "Nothing is missing"
                                         : d.verdict == Verdict::insufficient_time ? "Too little time"
                                                                                   : "Too few trials");
     if (d.verdict == Verdict::consistent && !beyond.empty())
-      box.lines.emplace_back(Style::text, "Consistent only if " + beyond +
-                                              ". Otherwise something that is on no list acts there.");
+      box.lines.emplace_back(Style::text, "Consistent only if " + beyond + ". " + otherwise(d));
     std::string bounds;
     for (std::size_t i = 0; i < d.absent.size() && i < 4; ++i) {
       const auto q = quantity_of(d.absent[i].parameter);
       bounds += fmt::format("{}{}: {} {} {}{}", bounds.empty() ? "" : ";  ", d.absent[i].id, q.words,
-                            d.absent[i].is_lower ? "above" : "below",
-                            fmt::format("{:.2g}", d.absent[i].value), q.unit.empty() ? "" : " " + q.unit);
+                            d.absent[i].is_lower ? "above" : "below", plain_number(d.absent[i].value, 2),
+                            q.unit.empty() ? "" : " " + q.unit);
     }
     if (!bounds.empty())
       box.lines.emplace_back(Style::text, "Hardest to exclude: " + bounds + ". All bounds below.");
@@ -176,7 +175,7 @@ StudyAnswer how_much_better(const Diagnosis& d) {
   const auto q = quantity_of(f.channel);
   const double most = std::max({f.heldout.before, f.heldout.after, f.floor, 1e-300});
   const auto bar = [&](const char* label, double value, const char* color) {
-    box.bars.push_back({label, value / most, fmt::format("{:.3g} {}", value, q.unit), color});
+    box.bars.push_back({label, value / most, plain_number(value, 3) + " " + q.unit, color});
   };
   const bool changed = is_changed(d);
   box.lines.emplace_back(Style::lead, fmt::format("{}: held-out error {}", f.channel,
@@ -189,7 +188,7 @@ StudyAnswer how_much_better(const Diagnosis& d) {
       Style::quiet,
       fmt::format(
           "Root mean square{}. Noise floor: noise ({} a sample), uncertain inputs and model error together.",
-          changed ? " on trials held out of the fit" : "", fmt::format("{:.2g} {}", f.noise, q.unit)));
+          changed ? " on trials held out of the fit" : "", plain_number(f.noise, 2) + " " + q.unit));
   if (const auto left = remainder_text(d); !left.empty()) box.lines.emplace_back(Style::text, left);
   if (const auto before = taken_up_before(d); !before.empty()) box.lines.emplace_back(Style::text, before);
   for (const auto& noise : d.noise)

@@ -8,6 +8,7 @@
 #include "tools/diagnose/answer/page/diagnosis_page.hpp"
 #include "tools/diagnose/model/digits.hpp"
 #include "tools/diagnose/model/quantity.hpp"
+#include "tools/report/unit_text.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -55,7 +56,7 @@ StudySection errors_section(const Diagnosis& d) {
     if (found) values.push_back(fit->heldout.after);
     values.push_back(fit->floor);
     for (const double value : values) {
-      row.push_back(fmt::format("{:.3g} {}", value, unit));
+      row.push_back(plain_number(value, 3) + " " + unit);
       shades.emplace_back(0.0, 0.0);
     }
     table.rows.push_back(std::move(row));
@@ -80,12 +81,13 @@ StudySection noise_section(const Diagnosis& d) {
   table.text_columns = 3;
   table.whole = true;
   const auto size = [](const SensorNoise& n, double sd) {
-    return sd > 0.0 ? fmt::format("{:.3g} {}", sd, quantity_of(n.channel).unit) : "";
+    return sd > 0.0 ? plain_number(sd, 3) + " " + quantity_of(n.channel).unit : "–";
   };
   for (const auto& n : d.noise) {
-    table.rows.push_back({n.channel, n.said_by, n.is_raised ? "raised, see below" : "as the sensor's own",
-                          size(n, n.stated), size(n, n.measured), size(n, n.used),
-                          n.stated > 0.0 ? fmt::format("{:.2f}", n.times()) : ""});
+    table.rows.push_back({n.channel, n.said_by.empty() ? "nobody" : n.said_by,
+                          n.is_raised ? "raised, see below" : "as the sensor's own", size(n, n.stated),
+                          size(n, n.measured), size(n, n.used),
+                          n.stated > 0.0 ? fmt::format("{:.2f}", n.times()) : "–"});
     table.row_marks.emplace_back(n.is_raised ? "partly" : "");
   }
   table.note =
@@ -137,7 +139,7 @@ StudySection effects_section(const Diagnosis& d) {
                    "what it says",
                    "equation",
                    "probability",
-                   "share of the fall of the held-out error",
+                   "share of the gain, in held-out error",
                    "times the typical size",
                    "p"};
   table.text_columns = 3;
@@ -145,8 +147,8 @@ StudySection effects_section(const Diagnosis& d) {
   for (const auto& e : d.effects) {
     table.rows.push_back({name_of(e), e.statement, e.equation, fmt::format("{:.2f}", e.probability),
                           fmt::format("{:.2f}", e.heldout_gain),
-                          e.typicals > 0.0 ? fmt::format("{:.2g}", e.typicals) : "",
-                          e.p_value < 1.0 ? fmt::format("{:.1e}", e.p_value) : ""});
+                          e.typicals > 0.0 ? plain_number(e.typicals, 2) : "",
+                          e.p_value < 1.0 ? probability_text(e.p_value) : ""});
     table.row_marks.push_back(mark_of(e));
   }
   StudyTable sizes = sizes_table(d);
@@ -160,8 +162,8 @@ StudySection effects_section(const Diagnosis& d) {
     if (!e.indistinguishable_from.empty()) {
       std::string others;
       for (const auto& other : e.indistinguishable_from) others += (others.empty() ? "" : ", ") + other;
-      section.items.emplace_back(
-          fmt::format("{} or one of {}: they explain these recordings equally well.", e.id, others));
+      section.items.emplace_back(fmt::format("{} or {}{}: they explain these recordings equally well.", e.id,
+                                             e.indistinguishable_from.size() > 1 ? "one of " : "", others));
     }
   return section;
 }
@@ -192,7 +194,7 @@ StudySection where_section(const Diagnosis& d) {
     table.rows.push_back({w.channel, w.phase_in_words(), w.port, quantity_of(w.coordinate).label(),
                           to_digits_of(w.range_low, w.range_high - w.range_low),
                           to_digits_of(w.range_high, w.range_high - w.range_low),
-                          fmt::format("{:.2f}", w.share_of_excess), fmt::format("{:.1e}", w.p_value),
+                          fmt::format("{:.2f}", w.share_of_excess), probability_text(w.p_value),
                           fmt::format("{}", w.trials.size())});
   table.note =
       "Channels and phases, or thirds of a trial, in which what was found changes the recordings by more "
@@ -212,8 +214,8 @@ StudySection absent_section(const Diagnosis& d) {
   table.text_columns = 2;
   for (const auto& b : d.absent)
     table.rows.push_back({b.id, quantity_of(b.parameter).label(),
-                          fmt::format("{} {:.2g}", b.is_lower ? "above" : "below", b.value),
-                          fmt::format("{:.2g}", b.typicals)});
+                          (b.is_lower ? "above " : "below ") + plain_number(b.value, 2),
+                          plain_number(b.typicals, 2)});
   table.note =
       "Bounds of what was looked for and not found: the largest size that each may have beside what was "
       "found, "
@@ -226,13 +228,6 @@ StudySection absent_section(const Diagnosis& d) {
   return {"What is absent", {table}};
 }
 
-// "m/s^2" -> "m/s²"
-std::string with_powers(std::string unit) {
-  for (const auto& [typed, set] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
-    for (auto at = unit.find(typed); at != std::string::npos; at = unit.find(typed)) unit.replace(at, 2, set);
-  return unit;
-}
-
 StudySection belief_section(const Diagnosis& d) {
   StudyTable table;
   table.columns = {"number",      "who said it",           "value",  "unit",
@@ -241,11 +236,11 @@ StudySection belief_section(const Diagnosis& d) {
   for (const auto& n : d.belief) {
     auto value = n.low == n.high ? number(n.low) : fmt::format("{} to {}", number(n.low), number(n.high));
     if (n.known_sd > 0.0)
-      value += fmt::format(" (known to {}; beside what was found the recordings ask for {:+.2g})",
-                           number(n.known_sd), n.asked_for);
+      value += fmt::format(" (known to {}; beside what was found the recordings ask for {}{})",
+                           number(n.known_sd), n.asked_for < 0.0 ? "" : "+", plain_number(n.asked_for, 2));
     table.rows.push_back({n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
                           n.error_that_shows == 0.0           ? std::string("not looked at")
-                          : std::isfinite(n.error_that_shows) ? fmt::format("{:.2g}", n.error_that_shows)
+                          : std::isfinite(n.error_that_shows) ? plain_number(n.error_that_shows, 2)
                                                               : std::string("none"),
                           n.error_that_shows > 0.0 && n.matters() ? "yes" : ""});
   }

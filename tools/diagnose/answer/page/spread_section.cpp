@@ -22,17 +22,25 @@ std::vector<std::string> trials_of(const Diagnosis& d) {
 
 StudyTable numbers_table(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"fitted in each trial",     "believed sd",
-                   "mean as believed",         "sd as believed",
-                   "mean with what was found", "sd with what was found",
-                   "furthest, in believed sd"};
+  // With nothing found, before and after are the same fit.
+  const bool changed = is_changed(d);
+  table.columns = {"fitted in each trial", "believed sd", changed ? "mean as believed" : "mean",
+                   changed ? "sd as believed" : "sd"};
+  if (changed)
+    table.columns.insert(table.columns.end(), {"mean with what was found", "sd with what was found"});
+  table.columns.emplace_back("furthest, in believed sd");
   for (const auto& n : d.trial_to_trial) {
     double furthest = 0.0;
     for (const auto& value : n.values) furthest = std::max(furthest, std::abs(value.after));
-    table.rows.push_back({quantity_of(n.name).label(), number(n.believed_sd),
-                          to_digits_of(n.mean_before, n.sd_before), to_digits_of(n.sd_before, n.sd_before),
-                          to_digits_of(n.mean_after, n.sd_after), to_digits_of(n.sd_after, n.sd_after),
-                          n.believed_sd > 0.0 ? fmt::format("{:.2g}", furthest / n.believed_sd) : ""});
+    std::vector<std::string> row{quantity_of(n.name).label(), number(n.believed_sd)};
+    if (changed) {
+      row.push_back(to_digits_of(n.mean_before, n.sd_before));
+      row.push_back(to_digits_of(n.sd_before, n.sd_before));
+    }
+    row.push_back(to_digits_of(n.mean_after, n.sd_after));
+    row.push_back(to_digits_of(n.sd_after, n.sd_after));
+    row.push_back(n.believed_sd > 0.0 ? plain_number(furthest / n.believed_sd, 2) : "");
+    table.rows.push_back(std::move(row));
     table.row_marks.emplace_back(n.exceeds_after() ? "bad" : "");
   }
   table.note =
@@ -44,7 +52,7 @@ StudyTable numbers_table(const Diagnosis& d) {
 
 StudyTable values_table(const Diagnosis& d) {
   StudyTable table;
-  table.title = "Their values, with what was found";
+  table.title = is_changed(d) ? "Their values, with what was found" : "Their values";
   table.columns = {"trial"};
   for (const auto& n : d.trial_to_trial) table.columns.push_back(quantity_of(n.name).label());
   bool exceeded = false;
