@@ -236,7 +236,7 @@ TEST(DiagnoseRotary, WithoutAPositionATrialBeginsWhereItsSetUpSays) {
       EXPECT_EQ(d.verdict, Verdict::consistent);
       continue;
     }
-    ASSERT_EQ(d.effects.size(), 1u);
+    ASSERT_EQ(d.effects.size(), 1u) << to_text(d);
     const auto& found = d.effects.front();
     const std::string other = found.id == "axis.gravity" ? "axis.torque_scale" : "axis.gravity";
     EXPECT_THAT(found.indistinguishable_from, ::testing::Contains(other)) << found.id;

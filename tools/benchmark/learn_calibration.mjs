@@ -1,8 +1,8 @@
-// The map from the posterior mass of a claim to the probability that it is right (tools/diagnose/evidence/
-// calibration.hpp), fitted to the claims of calibration_claims.csv, and how a map that was fitted on the other
+// The largest probability of a name (tools/diagnose/evidence/calibration.hpp) and the map from the posterior mass of a
+// claim to the probability that it is right, fitted to the claims of calibration_claims.csv, and how a map that was fitted on the other
 // programs does on the program left out.
-//   node tools/benchmark/learn_calibration.mjs              tables, and the two maps
-//   node tools/benchmark/learn_calibration.mjs --check      exit code 1 if the header holds another map of names
+//   node tools/benchmark/learn_calibration.mjs              tables, and the maps
+//   node tools/benchmark/learn_calibration.mjs --check      exit code 1 if the header holds another limit of names
 //   node tools/benchmark/learn_calibration.mjs PROGRAM[:held_out]=ANSWERS=DIAGNOSES…
 //                                                           first makes calibration_claims.csv anew
 // ANSWERS is the folder `answers` of `hop conceal`, or a file {"cases": [{"name", "plant", "kind", "true_ids"}]} of
@@ -119,9 +119,9 @@ function tables(all, about) {
       const cell = (part) => `${part.filter(({ right }) => right).length}/${part.length}`;
       console.log(`  ${value} ${[of(0, 0.5), of(0.5, 0.9), of(0.9, 0.99), of(0.99, 2)].map(cell).join(' ')}`);
     }
-  console.log('left out, claims: Brier, logarithmic score, calibration error with the mass | with the map of the others');
+  console.log('left out, claims: Brier, logarithmic score, calibration error with the mass | with the map of the others | with their limit');
   const row = (name, own, knots) =>
-    console.log(`  ${name} ${own.length}: ${text(scores(own, (mass) => mass))} | ${text(scores(own, (mass) => mapped(knots, mass)))}`);
+    console.log(`  ${name} ${own.length}: ${text(scores(own, (mass) => mass))} | ${text(scores(own, (mass) => mapped(knots, mass)))} | ${text(scores(own, (mass) => Math.min(mass, knots.at(-1).probability)))}`);
   for (const program of new Set(learnt.map((claim) => claim.program)))
     row(program, learnt.filter((claim) => claim.program === program),
       fitted(learnt.filter((claim) => claim.program !== program)));
@@ -131,12 +131,12 @@ function tables(all, about) {
   console.log(`map: {${knotsText(knots)}}\n`);
 }
 
-// Exits with 1 if calibration.hpp holds other knots than the fit.
+// Exits with 1 if calibration.hpp holds another limit than the last step of the fit.
 function check(claims) {
-  const fit = knotsText(fitted(claims.filter(({ about, heldOut }) => about === 'name' && !heldOut)));
+  const fit = fitted(claims.filter(({ about, heldOut }) => about === 'name' && !heldOut)).at(-1).probability.toFixed(3);
   const header = fs.readFileSync(new URL('../diagnose/evidence/calibration.hpp', import.meta.url), 'utf8');
-  if (header.includes(`{{{0.0, 0.0}, ${fit}}}`)) return;
-  console.error(`calibration.hpp does not hold the map of these claims: write {{{0.0, 0.0}, ${fit}}} and the number of knots`);
+  if (header.includes(`kMostOfAName = ${fit};`)) return;
+  console.error(`calibration.hpp does not hold the limit of these claims: write kMostOfAName = ${fit}`);
   process.exit(1);
 }
 

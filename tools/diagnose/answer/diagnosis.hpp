@@ -31,10 +31,10 @@ struct FoundEffect {
   std::string statement;
   std::string equation;
   std::vector<FoundParameter> parameters;
-  double probability = 0.0;
-  // Posterior mass of the sets that hold this name or one of its class, lowered where a rule of the answer
-  // limits it. The probability is its calibrated value. 1: not from a posterior.
-  double mass = 1.0;
+  double probability = 0.0;  // the calibrated `mass`
+  // Posterior mass of the sets that hold this name or one of its class; 1: not from a posterior.
+  double posterior_mass = 1.0;
+  double mass = 1.0;  // the same, lowered where a rule of the answer limits it
   // Fraction of the explained deviance that held-out trials lose without this effect.
   double heldout_gain = 0.0;
   double p_value = 1.0;

@@ -53,7 +53,7 @@ Json effect_json(const FoundEffect& e) {
               {"equation", e.equation},
               {"parameters", parameters},
               {"probability", e.probability},
-              {"posterior_mass", e.mass},
+              {"posterior_mass", e.is_unknown() ? e.mass : e.posterior_mass},
               {"heldout_gain", e.heldout_gain},
               {"interval_holds_zero", e.may_be_zero()},
               {"indistinguishable_from", e.indistinguishable_from}};

@@ -170,7 +170,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
     found.equation = candidate.effect->equation;
     found.parameters = parameters_of(candidate, point.hypothesis.values[e], covariance, quantile, at);
     at += static_cast<Index>(candidate.parameters.size());
-    found.mass = belief.mass.contains(c) ? belief.mass.at(c) : 0.0;
+    found.posterior_mass = found.mass = belief.mass.contains(c) ? belief.mass.at(c) : 0.0;
     found.indistinguishable_from = class_of(problem, c, belief);
     for (const auto& evidence : best.evidence)
       if (evidence.candidate == c) {

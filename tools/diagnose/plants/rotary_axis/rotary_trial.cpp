@@ -108,7 +108,7 @@ class RotaryTrial final : public TrialModel {
         stretch.torque_Nm = acting * own[kTorque];
         stretch.torque_rise_Nm = acting * own[kTorqueRise];
       }
-      simulate_axis(f, laws, {torque, turned_at_, drive_acts_}, stretch, lead_in_s_, position, velocity);
+      simulate_axis(f, laws, {torque, turned_at_, !swings_free_}, stretch, lead_in_s_, position, velocity);
       read_on_motor_side(edits, torque, position, velocity);
       read_by_angle(edits, position, velocity);
       for (const std::uint32_t channel : {0u, 1u}) {
@@ -238,6 +238,7 @@ class RotaryTrial final : public TrialModel {
     const double share = row_s * row_s / (12.0 * step_s_ * step_s_);
     for (std::size_t i = 1; i + 1 < count; ++i)
       drive_.values[i] -= share * (straight[i - 1] - 2.0 * straight[i] + straight[i + 1]);
+    swings_free_ = std::ranges::all_of(drive_.values, [](double torque) { return torque == 0.0; });
   }
 
   // Cuts the trial into stretches of about `block_s` in which the torque is known, up to short gaps that are
@@ -374,7 +375,7 @@ class RotaryTrial final : public TrialModel {
   Samples torque_;
   Signal drive_, turned_at_, angle_;  // angle_: as recorded, smoothed
   std::size_t lead_channel_ = 0;
-  bool drive_acts_ = true, has_torque_offset_ = false, has_zero_of_angle_ = false;
+  bool drive_acts_ = true, swings_free_ = false, has_torque_offset_ = false, has_zero_of_angle_ = false;
   double step_s_ = 1e-3, torque_row_s_ = 0.0, lead_in_s_ = kLeadIn_s;
   std::vector<AxisStretch> stretches_;
   std::vector<std::array<Span, 2>> spans_;
