@@ -32,8 +32,8 @@ void ProfileSolver::take_friction(const Information& info) noexcept {
   friction_N_ = moment / info.friction_normal;
 }
 
-// Change of the moment if every sample of a cell increases by one newton. The last line is the depth's column, as in
-// `depend_on_contact`.
+// Change of the moment if every sample of a cell increases by one newton. The last line is the depth's
+// column, as in `depend_on_contact`.
 void ProfileSolver::take_responses(const ProfileSums& sums, const Information& info) noexcept {
   using F = ProfileFeature;
   for (std::size_t s = 0; s < kProfileCells; ++s) {

@@ -13,7 +13,7 @@ std::string subject_of(const TrialToTrial& nuisance);
 // "stiffness_per_area differs by -20 % in Versuch_05, 5.2 times the stated 3.8 %, ..."; empty: the values
 // beside what was found lie within the believed spreads, and none that nobody stated leans to one side.
 std::string beyond_spread(const Diagnosis& diagnosis);
-// What that means, as a sentence.
+// The consequence of that, as a sentence.
 std::string otherwise(const Diagnosis& diagnosis);
 // Nuisances that exceeded their spread before the effects were put in, and that the effects brought nearer to
 // zero; empty: none.

@@ -3,8 +3,8 @@
 
 namespace sandhopper::diagnose {
 
-// Largest probability of a name: the frequency with which names of full posterior mass were right on campaigns of
-// four programs that share nothing with this one. Set by tools/benchmark/learn_calibration.mjs.
+// Largest probability of a name: the frequency with which names of full posterior mass were right on
+// campaigns of four programs that share nothing with this one. Set by tools/benchmark/learn_calibration.mjs.
 inline constexpr double kMostOfAName = 0.877;
 inline double calibrated(double mass) { return std::clamp(mass, 0.0, kMostOfAName); }
 
