@@ -140,6 +140,17 @@ function legendsOnFigures() {
   return faults;
 }
 
+// The name of a card's line is generated content, so it is in no text node: it must not run into its value.
+function namesOnValues() {
+  const pen = document.createElement('canvas').getContext('2d');
+  return [...document.querySelectorAll('[data-form=cards] td[data-name]')].filter((cell) => {
+    const name = getComputedStyle(cell, '::before');
+    if (!cell.clientWidth || name.content === 'none' || name.whiteSpace !== 'nowrap') return false;
+    pen.font = name.font;
+    return pen.measureText(cell.dataset.name).width > parseFloat(name.width);
+  }).map((cell) => `the name '${cell.dataset.name}' runs into its value '${short(cell.textContent)}'`);
+}
+
 function outsideOfFigureOrWindow(texts, pieces) {
   const faults = [];
   for (const { holder, boxes, text } of texts) {
@@ -227,14 +238,14 @@ function tooPale(texts, pieces, least) {
 }
 
 const kInThePage = `${[short, blend].map((made) => `const ${made.name} = ${made};`).join('\n')}
-${[nameOf, widerThanTheWindow, clipped, boxesOf, textsOfThePage, piecesOf, overlapping, legendsOnFigures, outsideOfFigureOrWindow, brokenWords,
+${[nameOf, widerThanTheWindow, clipped, boxesOf, textsOfThePage, piecesOf, overlapping, namesOnValues, legendsOnFigures, outsideOfFigureOrWindow, brokenWords,
   colorReader, paperOf, light, tooPale].join('\n')}`;
 
 const kFaults = `(least) => {
   ${kInThePage}
   const texts = textsOfThePage();
   const pieces = piecesOf(texts);
-  return [...new Set([...widerThanTheWindow(), ...clipped(), ...overlapping(pieces), ...legendsOnFigures(), ...outsideOfFigureOrWindow(texts, pieces),
+  return [...new Set([...widerThanTheWindow(), ...clipped(), ...overlapping(pieces), ...namesOnValues(), ...legendsOnFigures(), ...outsideOfFigureOrWindow(texts, pieces),
     ...brokenWords(texts), ...tooPale(texts, pieces, least)])];
 }`;
 

@@ -18,6 +18,7 @@ const kPlanted = [
   ['a label out of its figure', '<svg viewBox="0 0 300 60" width="300" height="60" style="overflow: visible"><text x="290" y="30">too long</text></svg>', /'too long' reaches out of its figure/],
   ['two texts of a canvas on one another', '<canvas id="c" width="300" height="60"></canvas><script>{ const c = document.getElementById("c").getContext("2d"); c.fillText("first", 20, 30); c.fillText("second", 25, 32); }</script>', /'first' and 'second' overlap/],
   ['a legend on its figure', '<figure style="position: relative"><svg viewBox="0 0 300 60" width="300" height="60"></svg><div class="legend" style="position: absolute; top: 5px; left: 5px">name</div></figure>', /a legend stands on its figure: name/],
+  ['a name on its value', '<style>td::before { content: attr(data-name); float: left; width: 60px; white-space: nowrap }</style><table data-form="cards"><tr><td data-name="largest size of all">12</td></tr></table>', /'largest size of all' runs into its value '12'/],
   ['a broken word', '<p style="width: 3em; overflow-wrap: anywhere">compression</p>', /'compression' is broken over \d lines/],
   ['pale text', '<p style="color: #aaa">pale</p>', /'pale' has a contrast of 2\.\d/],
   ['text that is half transparent', '<p style="opacity: .4">faded</p>', /'faded' has a contrast of/],

@@ -109,5 +109,17 @@ TEST(DiagnoseBelief, TheUsualErrorIsHalfTheLastDigit) {
   EXPECT_DOUBLE_EQ(error_of(9.81, plant_default, "gravity_mps2"), 0.027);
 }
 
+// diameter_m = 0.2101 became an area with an "error" of 5e-17 m2; 270 g times 0.001 one of 5e-17 kg.
+TEST(DiagnoseBelief, TheUsualErrorOfAComputedNumberIsThatOfTheStatedOne) {
+  const auto error_of = [](double value, const char* key) {
+    return usual_error(UsedNumber{
+        .key = key, .value = value, .low = value, .high = value, .source = UsedNumber::Source::trial_setup});
+  };
+  const double diameter_m = 0.2101, area_m2 = 0.25 * M_PI * diameter_m * diameter_m;
+  EXPECT_NEAR(error_of(area_m2, "body.frontal_area_m2"), 2.0 * area_m2 * 5e-5 / diameter_m, 1e-12);
+  EXPECT_DOUBLE_EQ(error_of(0.0347, "body.frontal_area_m2"), 5e-5);
+  EXPECT_DOUBLE_EQ(error_of(0.30000000000000004, "body.mass_kg"), 0.05);
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -23,5 +23,23 @@ TEST(DiagnoseDigits, WithoutAnUncertaintyTheValueKeepsItsDigits) {
   EXPECT_EQ(to_digits_of(0.1688, INFINITY), "0.1688");
 }
 
+// A bound of 8500 N/m was printed as "8.5e+03".
+TEST(DiagnoseDigits, NoExponentWhereZerosNeedNoCounting) {
+  EXPECT_EQ(plain_number(8542.0, 2), "8500");
+  EXPECT_EQ(plain_number(-1467.0, 2), "-1500");
+  EXPECT_EQ(plain_number(0.00123, 2), "0.0012");
+  EXPECT_EQ(plain_number(96.0, 2), "96");
+  EXPECT_EQ(plain_number(0.0, 2), "0");
+  EXPECT_EQ(plain_number(2.3e-5, 2), "2.3e-05");
+  EXPECT_EQ(plain_number(2.34e7, 2), "2.3e+07");
+  EXPECT_EQ(number(12345.0), "12340");
+  EXPECT_EQ(number(0.25), "0.25");
+}
+
+TEST(DiagnoseDigits, AProbabilityIsNoSmallerThanTailsAreKnown) {
+  EXPECT_EQ(probability_text(0.0025), "0.0025");
+  EXPECT_EQ(probability_text(7.2e-11), "<\u00a00.0001");
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

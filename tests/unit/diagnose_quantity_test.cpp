@@ -61,6 +61,7 @@ TEST(DiagnoseQuantity, MeasuresShortLengthsInMillimetres) {
 TEST(DiagnoseQuantity, GivesAValueTheDigitsItsIntervalLeaves) {
   EXPECT_EQ(with_interval(0.53223, 0.52453, 0.53993, ""), "0.5322 (95 %: 0.5245 to 0.5399)");
   EXPECT_EQ(with_interval(375.2, 350.0, 400.0, "N/m"), "375 N/m (95 %: 350 to 400)");
+  EXPECT_EQ(with_interval(12346.0, 11890.0, 12800.0, "N/m"), "12350 N/m (95 %: 11890 to 12800)");
 }
 
 }  // namespace

@@ -85,11 +85,9 @@ StudyFigure group_figure(const CurveGroup& group) {
   figure.note =
       "Inner band: 95 % interval of the mean of the ground that the trials were drawn from. Outer band: 95 % "
       "interval of one new trial's curve. Both hold depth by depth. They are drawn where at least three "
-      "trials "
-      "reached, or of two trials both.";
+      "trials reached; of two trials, where both did.";
   if (!figure.marks.empty())
-    figure.note +=
-        " Below the dotted line only some trials are left: the deeper ones, perhaps on weaker ground.";
+    figure.note += " Deeper than the dotted line only some trials are left, perhaps those on weaker ground.";
   return figure;
 }
 
