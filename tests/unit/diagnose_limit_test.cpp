@@ -49,7 +49,7 @@ TEST(DiagnoseLimit, NamesWhatIsFoundSoFarAndWhatWasNotLookedAt) {
   ASSERT_EQ(d.effects.size(), 1U);
   EXPECT_EQ(d.effects.front().id, "air.quadratic_drag");
   EXPECT_LE(d.effects.front().probability, 0.7) << "what is left was not looked at";
-  EXPECT_GT(whole.effects.front().probability, 0.8);
+  EXPECT_GT(whole.effects.front().mass, 0.95);
   EXPECT_FALSE(d.stopped_in.empty());
   EXPECT_TRUE(d.absent.empty());
   EXPECT_TRUE(d.next.kind.empty());

@@ -93,7 +93,7 @@ TEST(DiagnoseOtherForms, WhatShowsFromTrialToTrialOnlyIsNamed) {
   const auto d = diagnose(recordings);
   ASSERT_FALSE(d.effects.empty());
   EXPECT_EQ(d.effects.front().id, "terrain.compaction");
-  EXPECT_GT(d.effects.front().probability, 0.8);
+  EXPECT_GT(d.effects.front().mass, 0.95);
 }
 
 // A force that varies in time, differently in each trial, correlates with no recorded quantity. A falling

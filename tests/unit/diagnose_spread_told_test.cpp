@@ -117,5 +117,24 @@ TEST(DiagnoseSpread, ANumberThatNobodyStatedAndThatLeansAlikeInAllTrialsIsSaid) 
   EXPECT_THAT(headline(all_longer(0.03, true)), Not(HasSubstr("alike in")));
 }
 
+// Sound presses were called consistent only if every turning point lay .007 mm higher, and drops would be if
+// each had its own release: what each trial has for itself, and what a recording's convention may shift,
+// leans in vain.
+TEST(DiagnoseSpread, WhatEachTrialHasForItselfNeverLeans) {
+  for (const auto& all :
+       {presses([](double, double) { return 0.0; }), drops([](double, double, double) { return 0.0; })}) {
+    auto recordings = all;
+    std::erase_if(recordings.belief.numbers,
+                  [](const auto& number) { return number.first.starts_with("spread."); });
+    for (auto& belief : recordings.beliefs) belief = recordings.belief;
+    const auto d = diagnose(recordings);
+    for (const auto& n : d.trial_to_trial)
+      if (n.name.starts_with("release_") || n.name == "touchdown_time_s" || n.name == "turning_depth_m") {
+        EXPECT_TRUE(n.is_default) << n.name;
+        EXPECT_FALSE(n.leans_alike) << n.name;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -92,9 +92,8 @@ void tell_belief(Session& session, const UsedNumbers& used,
           found->matters() ? fmt::format(", and {} is usual: it matters", plain_number(found->usual_error, 2))
                            : "");
     if (found != numbers.end() && found->known_sd > 0.0)
-      shows += fmt::format("; known to {}, and beside what was found these recordings ask for {}{}",
-                           plain_number(found->known_sd, 2), found->asked_for < 0.0 ? "" : "+",
-                           plain_number(found->asked_for, 2));
+      shows += fmt::format("; known to {}, and beside what was found these recordings ask for {}",
+                           plain_number(found->known_sd, 2), signed_number(found->asked_for, 2));
     session.say("belief {}{}", to_string(number), shows);
   }
   if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("belief {}", defaults);

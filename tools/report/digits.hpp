@@ -25,14 +25,18 @@ inline std::optional<std::string> digits_by(double value, double uncertainty) {
   return fmt::format("{:.{}e}", rounded, std::max(0, first - place));
 }
 
-// A value to so many significant digits, without an exponent from 1e-3 to 1e6: 8542 to two digits is "8500",
-// not "8.5e+03". Above and below, zeros would have to be counted.
-inline std::string plain_number(double value, int digits) {
-  constexpr double kLeast = 1e-3, kMost = 1e6;
+// A value to so many significant digits, without an exponent from 1e-4 to `most`: 8542 to two digits is
+// "8500", not "8.5e+03". Above and below, zeros would have to be counted.
+inline std::string plain_number(double value, int digits, double most = 1e6) {
   auto text = fmt::format("{:.{}g}", value, digits);
   if (text.find('e') == std::string::npos) return text;
   const double rounded = std::stod(text), size = std::abs(rounded);
-  return size >= kLeast && size < kMost ? fmt::format("{:.0f}", rounded) : text;
+  return size >= 1.0 && size < most ? fmt::format("{:.0f}", rounded) : text;
+}
+
+// The same with its sign: "+0.12", "-0.12".
+inline std::string signed_number(double value, int digits) {
+  return (value < 0.0 ? "" : "+") + plain_number(value, digits);
 }
 
 }  // namespace sandhopper

@@ -21,13 +21,7 @@ std::string figure_number(double value) {
   if (!std::isfinite(value)) return "–";
   // Figures are of the order of 1 in their units: what is smaller than this is the rounding of their sums.
   constexpr double kRounding = 1e-9;
-  const double size = std::abs(value);
-  if (size < kRounding) return "0";
-  if (size >= 1000.0 && size < 1e7) {  // four digits, without an exponent
-    const double unit = std::pow(10.0, std::floor(std::log10(size)) - 3.0);
-    return fmt::format("{:.0f}", unit * std::round(value / unit));
-  }
-  return fmt::format("{:.4g}", value);
+  return std::abs(value) < kRounding ? "0" : plain_number(value, 4, 1e7);
 }
 
 std::string interval_text(double low, double high) {

@@ -224,8 +224,8 @@ struct TrialToTrial {
   double mean_after = 0.0, sd_after = 0.0;
   std::vector<SpreadValue> values{};  // of the trials that have it
   bool is_default = false;            // nobody stated the spread
-  // Nobody stated the spread, and its mean over the trials is not zero (Student's t, 1 %): it stands for
-  // something that all trials share. Never a start of a trial, which each trial has for itself.
+  // Nobody stated the spread, and its mean over the trials is not zero (Student's t, 1 %, Bonferroni over
+  // such spreads): it stands for something that all trials share. Never where `Nuisance::is_own`.
   bool leans_alike = false;
   std::string goes_with{};  // "falls with plate_diameter_m"; empty: the values are in no such order
 

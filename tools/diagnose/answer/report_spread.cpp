@@ -2,10 +2,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <string_view>
 #include <tuple>
 
 #include "tools/diagnose/answer/report_parts.hpp"
+#include "tools/diagnose/discrepancy/misfit.hpp"
 #include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 
@@ -117,12 +117,18 @@ double believed_sd(const Problem& problem, const Nuisance& nuisance) {
   return std::max(nuisance.sd, stated_spread(problem.context.belief, nuisance.name));
 }
 
-bool leans_alike(const TrialToTrial& told) {
-  for (const std::string_view start : {"release_", "impact_", "initial_"})
-    if (told.name.starts_with(start)) return false;
-  const auto n = static_cast<double>(told.values.size());
-  if (n < 3.0 || !(told.sd_after > 0.0)) return false;
-  return student_t_two_sided(told.mean_after / (told.sd_after / std::sqrt(n)), n - 1.0) < kSignificance;
+// True if a mean that is not zero says something of the rig.
+bool may_lean(const Nuisance& nuisance) { return nuisance.may_lean && !nuisance.is_own; }
+
+// Marks the unstated spreads whose mean is not zero; Bonferroni over them.
+void mark_what_leans(std::vector<TrialToTrial>& told) {
+  const auto tests = static_cast<double>(std::ranges::count_if(told, &TrialToTrial::leans_alike));
+  for (auto& nuisance : told) {
+    const auto n = static_cast<double>(nuisance.values.size());
+    const double error = nuisance.sd_after / std::sqrt(n);
+    nuisance.leans_alike = nuisance.leans_alike && nuisance.values.size() >= kTooFewTrials && error > 0.0 &&
+                           student_t_two_sided(nuisance.mean_after / error, n - 1.0) < kSignificance / tests;
+  }
 }
 
 }  // namespace
@@ -137,7 +143,9 @@ void report_trial_to_trial(const Problem& problem, const Search& search, const s
     for (std::size_t t = 0; t < problem.trials.size(); ++t) {
       const auto i = index_of(*problem.trials[t], name);
       if (!i) continue;
-      told.believed_sd = believed_sd(problem, problem.trials[t]->trial_nuisances[*i]);
+      const Nuisance& nuisance = problem.trials[t]->trial_nuisances[*i];
+      told.believed_sd = believed_sd(problem, nuisance);
+      told.leans_alike = may_lean(nuisance);
       before.push_back(null[t][*i]);
       after.push_back(best[t][*i]);
       told.values.push_back({problem.trials[t]->name, before.back(), after.back()});
@@ -148,10 +156,11 @@ void report_trial_to_trial(const Problem& problem, const Search& search, const s
     told.is_default = stated_spread(problem.context.belief, name) <= 0.0;
     for (const auto& number : diagnosis.belief)
       if (number.key == "spread." + name) told.is_default = number.said_by.starts_with("default");
-    told.leans_alike = told.is_default && leans_alike(told);
+    told.leans_alike = told.leans_alike && told.is_default;
     diagnosis.trial_to_trial.push_back(std::move(told));
   }
   mark_what_exceeds(problem.context.belief, diagnosis.trial_to_trial);
+  mark_what_leans(diagnosis.trial_to_trial);
   for (auto& told : diagnosis.trial_to_trial) {
     if (told.exceeds_after())
       told.goes_with = order_in_words(told.values, recorded);

@@ -20,9 +20,8 @@ double mean_square(double mean, double sd) { return mean * mean + sd * sd; }
 // "-9.0 +- 8.0 %"
 std::string mean_and_sd(const TrialToTrial& n, double mean, double sd) {
   const bool relative = n.name.ends_with(kRelative);
-  constexpr double kShort_m = 0.1;  // as measured(), which writes the stated spread beside it
   auto unit = relative ? std::string("%") : quantity_of(n.name).unit;
-  const bool in_mm = unit == "m" && std::abs(n.believed_sd) < kShort_m;
+  const bool in_mm = unit == "m" && std::abs(n.believed_sd) < kShort_m;  // as the believed spread beside it
   if (in_mm) unit = "mm";
   const double scale = relative ? 100.0 : in_mm ? 1e3 : 1.0;
   const auto text = [&](double value) { return digits_by(value, scale * sd).value_or(two_digits(value)); };

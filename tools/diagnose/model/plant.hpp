@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/diagnose/model/context.hpp"
@@ -43,7 +44,14 @@ struct Nuisance {
   // Effects that act in this trial exactly as the nuisance does: label, and change of the nuisance per unit
   // of the effect's first parameter. Both then have one derivative (`TrialModel::like`).
   std::map<std::string, double> like{};
+  bool is_own = false;  // each trial has its own: how it began, when the body landed
 };
+
+inline Nuisance own_nuisance(std::string name, double sd, double step) {
+  Nuisance nuisance{std::move(name), sd, step};
+  nuisance.is_own = true;
+  return nuisance;
+}
 
 // A quantity that is known for every row, e.g. depth or speed. The answer shows the mismatch over it.
 struct Coordinate {

@@ -146,7 +146,6 @@ std::string in_words(std::string name) {
 }
 
 std::string measured(double value, const std::string& unit) {
-  constexpr double kShort_m = 0.1;
   if (unit == "m" && value != 0.0 && std::abs(value) < kShort_m) return measured(1e3 * value, "mm");
   std::string text = std::abs(value) >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
   return unit.empty() ? text : text + " " + unit;

@@ -16,7 +16,8 @@ Quantity quantity_of(const std::string& key);
 
 std::string in_words(std::string name);  // "fast_fall" -> "fast fall"
 
-// A value with its unit, to three significant digits; lengths below 0.1 m in mm: "1.9 m", "46 mm".
+inline constexpr double kShort_m = 0.1;  // lengths below are written in mm
+// A value with its unit, to three significant digits: "1.9 m", "46 mm".
 std::string measured(double value, const std::string& unit);
 
 // A trial as text. label: "drop, release height 2 m, payload 0.1 kg". order: the head of a sentence that

@@ -236,8 +236,8 @@ StudySection belief_section(const Diagnosis& d) {
   for (const auto& n : d.belief) {
     auto value = n.low == n.high ? number(n.low) : fmt::format("{} to {}", number(n.low), number(n.high));
     if (n.known_sd > 0.0)
-      value += fmt::format(" (known to {}; beside what was found the recordings ask for {}{})",
-                           number(n.known_sd), n.asked_for < 0.0 ? "" : "+", plain_number(n.asked_for, 2));
+      value += fmt::format(" (known to {}; beside what was found the recordings ask for {})",
+                           number(n.known_sd), signed_number(n.asked_for, 2));
     table.rows.push_back({n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
                           n.error_that_shows == 0.0           ? std::string("not looked at")
                           : std::isfinite(n.error_that_shows) ? plain_number(n.error_that_shows, 2)

@@ -190,7 +190,7 @@ class FallingTrial final : public TrialModel {
     if (found_s < 0.0) return;
     fall_.touchdown_s = found_s;
     fall_.touchdown_nuisance = static_cast<int>(trial_nuisances.size());
-    trial_nuisances.push_back({"touchdown_time_s", kTouchdownTime_s, 2e-5});
+    trial_nuisances.push_back(own_nuisance("touchdown_time_s", kTouchdownTime_s, 2e-5));
   }
 
   // Start of a fall without recorded heights: at the entry the body is at the surface, with the speed that
@@ -250,11 +250,11 @@ class FallingTrial final : public TrialModel {
 
   // Adds the nuisances of the release, the sensors and the bed.
   void add_nuisances(const Trial& trial, const Samples& heights, double height_sd, double speed_sd) {
-    trial_nuisances.push_back({"release_height_m", height_sd, 1e-4});
-    trial_nuisances.push_back({"release_speed_mps", speed_sd, 1e-4});
+    trial_nuisances.push_back(own_nuisance("release_height_m", height_sd, 1e-4));
+    trial_nuisances.push_back(own_nuisance("release_speed_mps", speed_sd, 1e-4));
     if (fall_.held && !from_release_) {
       fall_.release_nuisance = static_cast<int>(trial_nuisances.size());
-      trial_nuisances.push_back({"release_time_s", kReleaseTime_s, 1e-4});
+      trial_nuisances.push_back(own_nuisance("release_time_s", kReleaseTime_s, 1e-4));
     }
     if (const double sd = fall_.belief.value("spread.height_bias_m"); sd > 0.0 && !heights.empty()) {
       height_bias_ = static_cast<int>(trial_nuisances.size());
@@ -287,8 +287,8 @@ class FallingTrial final : public TrialModel {
     }
     if (fall_.impact_s >= 0.0) {
       fall_.impact_nuisance = static_cast<int>(trial_nuisances.size());
-      trial_nuisances.push_back({"impact_height_m", kUnknownImpact_m, 1e-3});
-      trial_nuisances.push_back({"impact_speed_mps", kUnknownImpact_mps, 1e-2});
+      trial_nuisances.push_back(own_nuisance("impact_height_m", kUnknownImpact_m, 1e-3));
+      trial_nuisances.push_back(own_nuisance("impact_speed_mps", kUnknownImpact_mps, 1e-2));
     }
   }
 

@@ -74,10 +74,8 @@ class DrivenSteps {
         equation_(equation),
         inputs_(inputs),
         least_(has_laws ? 2.0 : 1.0),
-        slow_(std::ceil(inputs.torque.step_s * stiffness_per_s(f) / 1.5)) {}
-
-  static double stiffness_per_s(const RotaryFigures& f) {
-    return f.coulomb_Nm / (f.inertia_kg_m2 * f.switch_speed_radps);
+        slow_(
+            std::ceil(inputs.torque.step_s * f.coulomb_Nm / (f.inertia_kg_m2 * f.switch_speed_radps) / 1.5)) {
   }
 
   void advance(double t0, Motion& m) const {
@@ -208,14 +206,23 @@ void simulate_axis(const RotaryFigures& f, const std::vector<const Law*>& laws, 
     position.values[i] = s.position + t * (s.velocity + 0.5 * t * first);
     velocity.values[i] = s.velocity + t * first;
   }
-  const DrivenSteps driven(f, equation, inputs, !laws.empty());
-  FreeSteps free(equation, inputs, s.from_s, now);
-  for (std::size_t i = lead_in; i < count; ++i) {
-    const double t = s.from_s + step_s * static_cast<double>(i - lead_in);
-    if (!inputs.is_driven) now = free.at(t);
+  const auto write = [&](std::size_t i) {
     position.values[i] = now.angle_rad;
     velocity.values[i] = now.speed_radps;
-    if (inputs.is_driven) driven.advance(t, now);
+  };
+  const auto time_of = [&](std::size_t i) { return s.from_s + step_s * static_cast<double>(i - lead_in); };
+  if (inputs.is_driven) {
+    const DrivenSteps steps(f, equation, inputs, !laws.empty());
+    for (std::size_t i = lead_in; i < count; ++i) {
+      write(i);
+      steps.advance(time_of(i), now);
+    }
+    return;
+  }
+  FreeSteps steps(equation, inputs, s.from_s, now);
+  for (std::size_t i = lead_in; i < count; ++i) {
+    now = steps.at(time_of(i));
+    write(i);
   }
 }
 

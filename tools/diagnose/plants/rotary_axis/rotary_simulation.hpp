@@ -17,7 +17,7 @@ struct AxisStretch {
 struct AxisInputs {
   const Signal& torque;
   const Signal& turned_at;
-  bool is_driven = true;
+  bool is_driven;
 };
 
 // Simulates angle and speed over a stretch, from `lead_in_s` before it on, on the grid of the torque:
