@@ -91,8 +91,8 @@ std::string force_rows(const std::function<double(int)>& force_N) {
   return text;
 }
 
-// A load cell at its limit for half of its samples, or at one value, in all trials is kept. One that failed
-// in a single trial is not.
+// A load cell at its limit for half of its samples is kept: what it read below is true. One that shows one
+// value is kept if it does in all trials; in a single trial it failed.
 TEST(DiagnoseCampaignInput, AChannelAtOneValueInAllTrialsIsKept) {
   const auto live = [](int i) { return 0.05 * i + 0.01 * ((i * 7919) % 13); };
   const auto limited = [&](int i) { return std::min(live(i), i > 395 ? live(i - 300) : 10.0); };
@@ -112,6 +112,7 @@ TEST(DiagnoseCampaignInput, AChannelAtOneValueInAllTrialsIsKept) {
   EXPECT_EQ(forces_in({limited, limited, limited}), 3);
   EXPECT_EQ(forces_in({stuck, stuck, stuck}), 3);
   EXPECT_EQ(forces_in({live, stuck, live}), 2);
+  EXPECT_EQ(forces_in({live, limited, live}), 3);
 }
 
 // The torque of a free axis is usually not recorded. It is 0 there, and the answer states this. The torque of

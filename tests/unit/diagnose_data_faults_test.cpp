@@ -327,6 +327,30 @@ TEST(DiagnoseDataFaults, ALimitThatIsMetMostOfTheTimeIsASaturation) {
   EXPECT_EQ(faults.front().limit, 0.6);
 }
 
+// A speed in steps that are nearly as coarse as its noise: noise would not leave it in one step. Without
+// noise it does stay in one step where it turns.
+TEST(DiagnoseDataFaults, ALimitShowsInCoarseStepsBecauseTheNoiseIsMissingThere) {
+  constexpr double kStep = 0.02;
+  const auto faults_of = [](double noise, double limit) {
+    std::vector<Trial> trials(3);
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+      Random random(5, t);
+      for (int i = 0; i < 600; ++i) {
+        trials[t].time_s.push_back(0.005 * i);
+        const double read = std::min(std::sin(0.05 * i) + noise * random.normal(), limit);
+        trials[t].channels["velocity_radps"].push_back(kStep * std::round(read / kStep));
+      }
+    }
+    return remove_data_faults(trials);
+  };
+  const auto faults = faults_of(1.4 * kStep, 0.6);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().id, "sensor.saturation");
+  EXPECT_NEAR(faults.front().limit, 0.6, 1e-9);
+  EXPECT_TRUE(faults_of(1.4 * kStep, 9.0).empty());
+  EXPECT_TRUE(faults_of(0.1 * kStep, 9.0).empty());
+}
+
 // An accelerometer that is at its limit in every sample gives no evidence of anything else.
 TEST(DiagnoseDataFaults, WhereAChannelShowsNothingButItsLimitNothingElseIsNamed) {
   auto recordings = drops([](double, double, double) { return 0.0; });

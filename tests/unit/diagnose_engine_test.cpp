@@ -309,6 +309,20 @@ TEST(DiagnoseNoise, ASensorThatIsWorseThanStatedIsReportedAndAStatedOneIsNot) {
   EXPECT_TRUE(json["raised"]);
 }
 
+// One trial of five whose encoder is six times as noisy as in the others.
+TEST(DiagnoseNoise, ATrialThatCountsLessIsNamed) {
+  const auto notes_of = [](double more_rad) {
+    auto recordings = swings([](double, double, double) { return 0.0; });
+    Random random(3, 0);
+    for (double& q : recordings.trials.front().channels["position_rad"]) q += more_rad * random.normal();
+    std::string text;
+    for (const auto& note : diagnose(recordings).notes) text += note + "\n";
+    return text;
+  };
+  EXPECT_NE(notes_of(3e-3).find(": position_rad is 6"), std::string::npos);
+  EXPECT_EQ(notes_of(0.0).find("as noisy as"), std::string::npos);
+}
+
 // Friction that changes its sign at once, where the narrowest change that is looked for takes 0.008 rad/s.
 TEST(DiagnoseLimits, AnEstimateAtTheEndOfItsRangeIsMarkedOnlyIfMoreMayLieBeyond) {
   const auto d = diagnose(swings([](double, double v, double) {

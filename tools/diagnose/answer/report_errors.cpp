@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,6 +44,16 @@ struct Sums {
   }
 };
 
+// A trial that scatters more than the others counts less; without this note nobody would know.
+void note_noisy_trials(const Problem& problem, Diagnosis& diagnosis) {
+  for (const auto& trial : problem.trials)
+    for (std::size_t c = 0; c < trial->noise_factor.size(); ++c)
+      if (trial->noise_factor[c] > 1.0)
+        diagnosis.notes.push_back(
+            fmt::format("trial {}: {} is {:.2g} times as noisy as in the other trials and counts less there",
+                        trial->name, problem.channels[c], trial->noise_factor[c]));
+}
+
 }  // namespace
 
 // Held-out errors: the effects' parameters come from the other trials, the trial's own nuisances are fitted.
@@ -79,6 +91,7 @@ void report_errors(const Problem& problem, const Residuals& residuals, Diagnosis
 }
 
 void report_noise(const Problem& problem, Diagnosis& diagnosis) {
+  note_noisy_trials(problem, diagnosis);
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const auto& channel = problem.channels[c];
     if (!problem.context.has(channel)) continue;

@@ -39,8 +39,8 @@ PlantKind kind_of(CampaignPlant plant) {
 
 namespace {
 
-// Takes back channels that read_trial() left out because they stay at one value or at the end of their range,
-// if they do so in all trials. The diagnosis then finds and reports the fault.
+// Takes back channels that read_trial() left out because they stay at one value, if they do so in all trials.
+// The diagnosis then finds and reports the fault.
 void take_what_is_at_one_value(const std::vector<std::vector<TrialRecording::Channel>>& of_trials,
                                std::vector<Trial>& trials) {
   std::map<std::string, std::size_t> count;
@@ -129,6 +129,10 @@ void take_trial(const CampaignTrial& described, const TrialRecording& recording,
       recordings.words[entry.key].insert(*word);
   trial.time_s = recording.t_s;
   for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
+  // A range that ends too early shows in each trial; its other samples say what the quantity did.
+  for (const auto& channel : recording.at_one_value)
+    if (recording.saturation(channel.name) != nullptr && channel.values.size() == trial.time_s.size())
+      trial.channels[channel.name] = channel.values;
   recordings.trials.push_back(std::move(trial));
 }
 

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
 
+#include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 #include "tools/diagnose/recordings/data_fault_parts.hpp"
 
@@ -13,7 +16,7 @@ constexpr std::size_t kLeast = 6;    // least number of samples there
 constexpr std::size_t kFewest = 10;  // least number of samples for the noise of a trial
 // Least number of successive pairs there, if the share is smaller: an impact is short.
 constexpr std::size_t kInARow = 4;
-// Least noise in grid steps; with less noise, equal samples prove nothing.
+// Least noise in grid steps; with less noise, equal samples alone prove nothing.
 constexpr double kGridSteps = 3.0;
 // In standard deviations: noise may move a clipped sample off the limit by this.
 constexpr double kLifted = 3.0;
@@ -84,10 +87,18 @@ bool shows_one_value(const SampledChannel& s) {
   return std::ranges::all_of(s.value, [&](double v) { return v == s.value.front(); });
 }
 
+// True if noise could not leave so many samples in one step of the grid: each follows its predecessor there
+// with a probability of at most erf(grid / (2 sqrt(2) noise)), that of a step in the middle of the noise.
+bool noise_is_missing(double at_end, double in_a_row, double noise, double grid) {
+  if (!(noise > 0.0)) return false;
+  const boost::math::binomial repeats(at_end, boost::math::erf(grid / (2.0 * std::sqrt(2.0) * noise)));
+  return boost::math::cdf(boost::math::complement(repeats, in_a_row - 1.0)) < kBeyondDoubt;
+}
+
 // The largest or smallest value of the channel, if samples pile up there; the one of larger magnitude if they
 // do at both. 0: no limit. A trial of one value shows no limit: its torque may be that of a weight.
 double limit_of(const std::vector<SampledChannel>& samples, double low, double high, double total,
-                double grid) {
+                double noise, double grid) {
   double limit = 0.0;
   for (const double end : {high, low}) {
     double at_end = 0.0, next = 0.0;
@@ -104,6 +115,9 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
     // Without a limit the end value is not more frequent than the four grid steps next to it.
     if (at_end < static_cast<double>(kLeast) || at_end < 3.0 * (next + 1.0)) continue;
     if (at_end < kPileUp * total && in_a_row < kInARow) continue;
+    if (noise < kGridSteps * grid &&
+        !(in_a_row > 0 && noise_is_missing(at_end, static_cast<double>(in_a_row), noise, grid)))
+      continue;
     if (limit != 0.0 && std::abs(end) < std::abs(limit)) continue;
     limit = end;
   }
@@ -149,10 +163,9 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   }
   if (total < 50.0 || !(high > low)) return;
   const double noise = noise_off(samples, low, high), grid = value_grid(samples);
-  if (noise < kGridSteps * grid) return;
   DataFault fault{.channel = channel,
                   .id = range_fault(channel),
-                  .limit = limit_of(samples, low, high, total, grid),
+                  .limit = limit_of(samples, low, high, total, noise, grid),
                   .limit_resolution = 0.5 * grid,
                   .trials = {}};
   if (fault.limit == 0.0) return;
