@@ -347,6 +347,7 @@ TEST(DiagnoseDataFaults, ALimitShowsInCoarseStepsBecauseTheNoiseIsMissingThere) 
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults.front().id, "sensor.saturation");
   EXPECT_NEAR(faults.front().limit, 0.6, 1e-9);
+  EXPECT_FALSE(faults.front().at_both_ends);
   EXPECT_TRUE(faults_of(1.4 * kStep, 9.0).empty());
   EXPECT_TRUE(faults_of(0.1 * kStep, 9.0).empty());
 }

@@ -146,7 +146,9 @@ namespace {
 
 std::string fault_statement(const DataFault& fault) {
   if (fault.limit != 0.0)
-    return fmt::format("{} stops at {:.4g} while the quantity goes on.", fault.channel, fault.limit);
+    return fmt::format("{} stops at {}{:.4g} while the quantity goes on.", fault.channel,
+                       fault.at_both_ends ? "±" : "",
+                       fault.at_both_ends ? std::abs(fault.limit) : fault.limit);
   if (fault.id == "data.stuck")
     return fmt::format("{} stood still {} times while the quantity went on.", fault.channel, fault.stretches);
   if (fault.channel == "t_s") return fmt::format("Rows are missing {} times.", fault.stretches);

@@ -127,12 +127,11 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
 // Empties the samples at the limit; at both ends if the range is symmetric.
 void empty_at_limit(const std::vector<SampledChannel>& samples, double low, double high, double noise,
                     DataFault& fault) {
-  const bool both = high == -low;
   for (const auto& s : samples) {
     auto& values = s.trial->channels[fault.channel];
     bool hit = false;
     for (const double sign : {1.0, -1.0}) {
-      if (!both && fault.limit != (sign > 0.0 ? high : low)) continue;
+      if (!fault.at_both_ends && fault.limit != (sign > 0.0 ? high : low)) continue;
       std::vector<double> beyond;
       for (const double v : s.value) beyond.push_back(sign > 0.0 ? v - high : low - v);
       hit = hit || std::ranges::find(beyond, 0.0) != beyond.end();
@@ -166,6 +165,7 @@ void find_clipping(std::vector<Trial>& trials, const std::string& channel, std::
   DataFault fault{.channel = channel,
                   .id = range_fault(channel),
                   .limit = limit_of(samples, low, high, total, noise, grid),
+                  .at_both_ends = high == -low,
                   .limit_resolution = 0.5 * grid,
                   .trials = {}};
   if (fault.limit == 0.0) return;

@@ -18,6 +18,7 @@ struct DataFault {
   double rate_Hz = 0.0;     // stretches per second of recording; data.stuck: per second between stretches
   double recorded_s = 0.0;
   double limit = 0.0;               // end of the range, or the largest jump; 0: neither
+  bool at_both_ends = false;        // the range also ends at -limit
   double limit_resolution = 0.0;    // half a step of the channel's grid
   bool borderline = false;          // not certain; e.g. a logger may fill lost samples with the last value
   std::vector<std::string> trials;  // their names
