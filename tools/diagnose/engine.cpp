@@ -17,6 +17,7 @@
 #include "tools/diagnose/evidence/search_parts.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/next/next_trial.hpp"
+#include "tools/diagnose/recordings/contradicted_ranges.hpp"
 #include "tools/diagnose/recordings/data_faults.hpp"
 #include "tools/diagnose/rounds.hpp"
 
@@ -158,6 +159,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& asked) {
   Recordings clean = recordings;
   auto faults = remove_data_faults(clean.trials);
   note_what_is_no_fault(faults, clean, diagnosis);
+  for (auto& note : drop_contradicted_ranges(clean)) diagnosis.notes.push_back(std::move(note));
   Prepared prepared = prepare(clean);
   Problem& problem = prepared.problem;
   diagnosis.trials = problem.trials.size();
