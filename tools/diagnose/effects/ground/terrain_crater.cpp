@@ -5,19 +5,22 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.range_of_pushes <= 0.0) return {};
-  return {{.name = "drop_per_push_m", .typical = 3e-3, .low = -0.01, .high = 0.05}};
+  return {{.name = "drop_per_push_m", .typical = 3e-3, .low = -0.01, .high = 0.05},
+          // Below 1 a later push lowers the surface less, as a bed does that grows firm.
+          {.name = "pushes_power", .typical = 1.0, .low = 0.3, .high = 1.5, .shapes = {1.0, 0.5}}};
 }
 
 void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-  const double drop_m = v[0];
-  edits.law(LawPort::ground_surface, [drop_m](const GroundState& s) { return -drop_m * s.pushes; });
+  const double drop_m = v[0], power = v[1];
+  edits.law(LawPort::ground_surface,
+            [=](const GroundState& s) { return -drop_m * std::pow(s.pushes, power); });
 }
 
 const EffectRegistration kEffect(
     {.id = "terrain.crater",
      .port = Port::ground,
      .statement = "Each push since the bed was prepared lowers its surface.",
-     .equation = "z = z_recorded - c n",
+     .equation = "z = z_recorded - c n^p",
      .bench_tests =
          {{.sentence =
                "Measure the height of the bed under the {foot} with a ruler after each push: a crater lowers "
