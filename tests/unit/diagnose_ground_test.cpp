@@ -53,5 +53,28 @@ TEST(DiagnoseGround, ABiasOfTheDepthIsNamedAlone) {
   EXPECT_GT(bias.high, kBias_m);
 }
 
+// Every trial came after two pushes: a bed that they made stiffer is as good an explanation as a bed that is
+// stiffer. On a bed that was prepared afresh each time it is none.
+TEST(DiagnoseGround, AStifferBedMayBeACompactedOneIfEveryTrialCameAfterPushes) {
+  const auto others_of = [](double pushes) {
+    auto recordings = presses([](double, double) { return 0.0; }, 5, 8);
+    for (auto& belief : recordings.beliefs) belief.numbers["terrain.stiffness_N_per_m"] *= 0.8;
+    recordings.belief = recordings.beliefs.front();
+    for (auto& trial : recordings.trials) trial.setup["pushes_since_preparation"] = pushes;
+    const auto d = diagnose(recordings);
+    std::set<std::string> names;
+    for (const auto& effect : d.effects) {
+      names.insert(effect.id);
+      names.insert(effect.indistinguishable_from.begin(), effect.indistinguishable_from.end());
+    }
+    return names;
+  };
+  const auto after_pushes = others_of(2.0), afresh = others_of(0.0);
+  EXPECT_TRUE(after_pushes.contains("terrain.stiffness"));
+  EXPECT_TRUE(after_pushes.contains("terrain.compaction"));
+  EXPECT_TRUE(afresh.contains("terrain.stiffness"));
+  EXPECT_FALSE(afresh.contains("terrain.compaction"));
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

@@ -24,6 +24,10 @@ Point null_point(const Problem& problem) {
 
 std::vector<std::string> put_in_place(Problem& problem) {
   std::vector<std::string> unknown;
+  // The belief may state the shape of a law that these trials alone do not show.
+  Context stated = problem.context;
+  stated.facts.range_of_pushes = stated.facts.most_pushes;
+  stated.facts.range_of_wait_s = stated.facts.longest_wait_s;
   for (const auto& [label, given] : problem.context.belief.effects) {
     const std::string name = label.substr(0, label.find('#'));
     const auto candidate = std::find_if(problem.candidates.begin(), problem.candidates.end(),
@@ -33,12 +37,12 @@ std::vector<std::string> put_in_place(Problem& problem) {
       continue;
     }
     std::vector<double> values;
-    for (const auto& parameter : candidate->parameters) {
+    for (const auto& parameter : candidate->effect->parameters(stated, candidate->channel)) {
       const auto it = given.find(parameter.name);
       values.push_back(it == given.end() ? (values.empty() ? 0.0 : parameter.typical)
                                          : parameter.value_of(it->second));
     }
-    candidate->effect->apply(problem.context, candidate->channel, values, problem.in_place);
+    candidate->effect->apply(stated, candidate->channel, values, problem.in_place);
   }
   for (auto& edit : problem.in_place.sensors) edit.law_key = 1;
   return unknown;

@@ -75,6 +75,7 @@ struct PlantFacts {
   double depth_m = 0.04, foot_radius_m = 0.04;          // depth in the bed; radius of the foot
   double foot_radius_ratio = 1.0;                       // largest to smallest radius over the trials
   double range_of_pushes = 0.0, range_of_wait_s = 0.0;  // largest minus smallest value of the set-up
+  double most_pushes = 0.0, longest_wait_s = 0.0;       // largest value of the set-up
   std::optional<double> floor_distance_m{};  // smallest distance of the foot from the floor of the container
   bool position_is_out_of_time = false;      // see intruder_motion.hpp
   double wetted_over_m = 0.0;                // length of a body that enters a liquid; 0: none does

@@ -2,7 +2,19 @@
 
 #include <algorithm>
 
+#include "tools/diagnose/plants/inputs.hpp"
+
 namespace sandhopper::diagnose {
+
+void describe_bed_history(const std::vector<Trial>& trials, PlantFacts& facts) {
+  facts.range_of_pushes = range_of_setup(trials, "pushes_since_preparation");
+  facts.range_of_wait_s = range_of_setup(trials, "wait_s");
+  facts.most_pushes = facts.longest_wait_s = 0.0;
+  for (const auto& trial : trials) {
+    facts.most_pushes = std::max(facts.most_pushes, trial.setup_or("pushes_since_preparation", 0.0));
+    facts.longest_wait_s = std::max(facts.longest_wait_s, trial.setup_or("wait_s", 0.0));
+  }
+}
 
 GroundLaws::GroundLaws(const Edits& edits, const BedHistory& history)
     : factor_(edits.at(LawPort::ground_factor)),

@@ -4,6 +4,7 @@
 #include "terrain/bed.hpp"
 #include "tools/diagnose/model/context.hpp"
 #include "tools/diagnose/model/edits.hpp"
+#include "tools/diagnose/model/trial.hpp"
 
 namespace sandhopper::diagnose {
 
@@ -13,6 +14,9 @@ struct BedHistory {
   double wait_s = 0.0;
   double bed_depth_m = 0.0;  // depth of the container; 0: unknown
 };
+
+// Facts of the set-ups that laws of the bed's history go by.
+void describe_bed_history(const std::vector<Trial>& trials, PlantFacts& facts);
 
 // Effects on the bed, at the ports ground_* (model/ports.hpp). Their laws see a GroundState.
 //   F_d = curve (1 + ground_factor) + ground_static,   depth + ground_surface

@@ -25,7 +25,7 @@ Context widest_context(const Campaign& campaign) {
   auto& facts = context.facts;
   facts.masses_differ = true;
   facts.foot_radius_ratio = 2.0;
-  facts.range_of_pushes = facts.range_of_wait_s = 1.0;
+  facts.range_of_pushes = facts.range_of_wait_s = facts.most_pushes = facts.longest_wait_s = 1.0;
   facts.floor_distance_m = facts.wetted_over_m = 0.1;
   facts.temperature_K = 10.0;
   facts.ripple_orders = {kFewestRipples};

@@ -3,12 +3,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Assumed friction coefficient between body and rail.
-constexpr double kRailFriction = 0.1;
-
 // On a tilted rail the component g cos(alpha) acts along it, and g sin(alpha) presses on it.
 void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
-  const double tilt = v[0], pressed_N = kRailFriction * c.facts.weight_N * std::sin(tilt);
+  const double tilt = v[0], pressed_N = v[1] * c.facts.weight_N * std::sin(tilt);
   edits.scale("gravity_mps2", std::cos(tilt));
   edits.law(LawPort::rail,
             [=](const RailState& s) { return -pressed_N * sign_smooth(s.velocity_mps, kSwitchSpeed_mps); });
@@ -25,7 +22,9 @@ const EffectRegistration kEffect(
      .parameters =
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{
-               {.name = "tilt_rad", .typical = 0.06, .low = 0.0, .high = 0.5}};
+               {.name = "tilt_rad", .typical = 0.06, .low = 0.0, .high = 0.5},
+               // Between body and rail: from balls that roll to dry bushes.
+               {.name = "friction_coefficient", .typical = 0.1, .low = 0.01, .high = 0.5, .shapes = {0.2}}};
          },
      .apply = apply});
 

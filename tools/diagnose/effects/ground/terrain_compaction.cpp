@@ -3,16 +3,21 @@
 namespace sandhopper::diagnose {
 namespace {
 
+constexpr double kUsualPushes = 2.0;  // after which most of the compaction is done
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.facts.range_of_pushes <= 0.0) return {};
-  return {{.name = "compaction_share", .typical = 0.2, .low = -0.8, .high = 10.0},
-          {.name = "pushes", .typical = 2.0, .low = 0.2, .high = 20.0, .shapes = {0.7, 6.0}},
+  if (c.facts.most_pushes <= 0.0) return {};
+  const EffectParameter share{.name = "compaction_share", .typical = 0.2, .low = -0.8, .high = 10.0};
+  if (c.facts.range_of_pushes <= 0.0) return {share, part_of_unloading()};  // always as many: no shape shows
+  return {share,
+          {.name = "pushes", .typical = kUsualPushes, .low = 0.2, .high = 20.0, .shapes = {0.7, 6.0}},
           part_of_unloading()};
 }
 
-void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-  const double share = v[0], pushes = v[1];
-  stiffen(edits, v[2], [=](const GroundState& s) { return share * (1.0 - std::exp(-s.pushes / pushes)); });
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  const double share = v[0], pushes = c.facts.range_of_pushes > 0.0 ? v[1] : kUsualPushes;
+  stiffen(edits, v.back(),
+          [=](const GroundState& s) { return share * (1.0 - std::exp(-s.pushes / pushes)); });
 }
 
 const EffectRegistration kEffect(

@@ -4,14 +4,16 @@ namespace sandhopper::diagnose {
 namespace {
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.facts.range_of_pushes <= 0.0) return {};
-  return {{.name = "drop_per_push_m", .typical = 3e-3, .low = -0.01, .high = 0.05},
+  if (c.facts.most_pushes <= 0.0) return {};
+  const EffectParameter drop{.name = "drop_per_push_m", .typical = 3e-3, .low = -0.01, .high = 0.05};
+  if (c.facts.range_of_pushes <= 0.0) return {drop};  // always as many: no power shows
+  return {drop,
           // Below 1 a later push lowers the surface less, as a bed does that grows firm.
-          {.name = "pushes_power", .typical = 1.0, .low = 0.3, .high = 1.5, .shapes = {1.0, 0.5}}};
+          {.name = "pushes_power", .typical = 1.0, .low = 0.3, .high = 1.5, .shapes = {0.5}}};
 }
 
-void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-  const double drop_m = v[0], power = v[1];
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  const double drop_m = v[0], power = c.facts.range_of_pushes > 0.0 ? v[1] : 1.0;
   edits.law(LawPort::ground_surface,
             [=](const GroundState& s) { return -drop_m * std::pow(s.pushes, power); });
 }

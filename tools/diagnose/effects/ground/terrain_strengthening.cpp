@@ -3,16 +3,20 @@
 namespace sandhopper::diagnose {
 namespace {
 
+constexpr double kUsual_s = 2.0;  // time constant
+
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
-  if (c.facts.range_of_wait_s <= 0.0) return {};
-  return {{.name = "share_per_e_fold", .typical = 0.03, .low = 0.0, .high = 1.0},
-          {.name = "time_constant_s", .typical = 2.0, .low = 0.05, .high = 100.0, .shapes = {0.5, 10.0}},
+  if (c.facts.longest_wait_s <= 0.0) return {};
+  const EffectParameter share{.name = "share_per_e_fold", .typical = 0.03, .low = 0.0, .high = 1.0};
+  if (c.facts.range_of_wait_s <= 0.0) return {share, part_of_unloading()};  // always as long: no shape shows
+  return {share,
+          {.name = "time_constant_s", .typical = kUsual_s, .low = 0.05, .high = 100.0, .shapes = {0.5, 10.0}},
           part_of_unloading()};
 }
 
-void apply(const Context&, const std::string&, std::span<const double> v, Edits& edits) {
-  const double share = v[0], time_s = v[1];
-  stiffen(edits, v[2], [=](const GroundState& s) { return share * std::log1p(s.wait_s / time_s); });
+void apply(const Context& c, const std::string&, std::span<const double> v, Edits& edits) {
+  const double share = v[0], time_s = c.facts.range_of_wait_s > 0.0 ? v[1] : kUsual_s;
+  stiffen(edits, v.back(), [=](const GroundState& s) { return share * std::log1p(s.wait_s / time_s); });
 }
 
 const EffectRegistration kEffect(

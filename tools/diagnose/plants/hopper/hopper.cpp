@@ -102,8 +102,7 @@ class Hopper final : public PlantModel {
       for (const double t : mean_of_motors(trial, "temperature_C").value) hottest = std::max(hottest, t);
     }
     PlantFacts& s = context.facts;
-    s.range_of_pushes = range_of_setup(trials, "pushes_since_preparation");
-    s.range_of_wait_s = range_of_setup(trials, "wait_s");
+    describe_bed_history(trials, s);
     s.temperature_K = hottest - kRoom_C;
     s.weight_N = (world.robot.leg.body_mass_kg + world.robot.leg.foot_mass_kg) * world.gravity_mps2;
     s.foot_radius_m = world.robot.leg.foot_radius_m;

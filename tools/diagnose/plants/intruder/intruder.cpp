@@ -41,8 +41,7 @@ class Intruder final : public PlantModel {
     context.facts.speed_mps = std::max(fastest, 1e-3);
     context.facts.force_N = std::max(strongest, 0.1);
     // Differences between the set-ups, and the smallest distance of the foot from the floor of the container.
-    context.facts.range_of_pushes = range_of_setup(trials, "pushes_since_preparation");
-    context.facts.range_of_wait_s = range_of_setup(trials, "wait_s");
+    describe_bed_history(trials, context.facts);
     for (const auto& trial : trials) {
       const double bed_m = trial.setup_or("bed_depth_m", 0.0);
       if (bed_m <= 0.0) continue;
@@ -56,6 +55,7 @@ class Intruder final : public PlantModel {
     for (const auto& trial : trials) pushes = std::max(pushes, pushes_of(samples_of(trial, "foot_z_m")));
     double& range = context.facts.range_of_pushes;
     range = std::max(range, pushes - 1.0);
+    context.facts.most_pushes = std::max(context.facts.most_pushes, range);
     // The foot's position is an input and is not predicted. Its faults are candidates, too.
     context.facts.position_is_out_of_time = position_is_out_of_time(trials);
   }
