@@ -49,6 +49,13 @@ std::vector<ForeignCondition> conditions_of_samples() {
                return si_at(r.t_s, r);
              }),
        intruder, true},
+      {"a speed at its sensor's limit",
+       axis("t_s,position_rad,velocity_radps,torque_Nm",
+            [](auto r) {
+              return fmt::format("{:.2f},{:.6f},{:.6f},{:.6f}", r.t_s, r.angle_rad,
+                                 std::max(-0.08, r.speed_radps), r.torque_Nm);
+            }),
+       rotary_axis, true},
       {"angle and speed under each other's name",
        axis("t_s,velocity_radps,position_rad,torque_Nm",
             [](auto r) {

@@ -157,12 +157,17 @@ TEST(Units, AUnitAloneDoesNotOutweighTheFilesOwn) {
 }
 
 TEST(Units, AUnitThatAgreesOrComesWithItsScaleIsTaken) {
-  for (const auto* mapping : {"unit = \"deg\"", "unit = \"°\"", "unit = \"rad\", scale = 1.0"}) {
+  for (const auto* mapping : {"unit = \"deg\"", "unit = \"°\""}) {
     const auto recording =
         turn("t,Angle (deg),M", "",
              fmt::format("t_s = \"t\"\nposition_rad = {{ column = \"Angle (deg)\", {} }}", mapping));
     EXPECT_EQ(find(recording, unit_disagrees), nullptr) << mapping;
   }
+  const auto overruled =
+      turn("t,Angle (deg),M", "",
+           "t_s = \"t\"\nposition_rad = { column = \"Angle (deg)\", unit = \"rad\", scale = 1.0 }");
+  ASSERT_NE(find(overruled, unit_disagrees), nullptr) << "taken, and the file's own unit is told";
+  EXPECT_EQ(find(overruled, unit_disagrees)->severity, FindingSeverity::note);
   EXPECT_EQ(find(turn("t,Angle (deg),M", "s,rad,Nm",
                       "t_s = \"t\"\nposition_rad = { column = \"Angle (deg)\", unit = \"rad\" }"),
                  unit_disagrees),

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <type_traits>
@@ -13,6 +12,7 @@
 #include "config/load.hpp"
 #include "tools/campaign/belief_notes.hpp"
 #include "tools/campaign/key_reference.hpp"
+#include "tools/campaign/written_digits.hpp"
 
 namespace sandhopper {
 namespace {
@@ -105,6 +105,7 @@ std::map<std::string, double> numbers_of(const Belief& belief) {
 UsedNumbers used_numbers(const Campaign& campaign) {
   UsedNumbers used;
   const auto lines = lines_of(campaign.model);
+  const auto errors = written_errors(campaign.model);
   std::vector<std::map<std::string, double>> of_trials;
   for (const auto& trial : campaign.trials) of_trials.push_back(numbers_of(trial.belief));
   const auto in_order = numbers_in_order(campaign.belief);
@@ -122,6 +123,8 @@ UsedNumbers used_numbers(const Campaign& campaign) {
       own += is_unstated || it->second != value || (may_be_set_up && campaign.trials[i].states(key));
       number.low = seen == 0 ? it->second : std::min(number.low, it->second);
       number.high = seen == 0 ? it->second : std::max(number.high, it->second);
+      if (may_be_set_up)
+        number.written_error = std::max(number.written_error, written_error(campaign.trials[i], key));
       ++seen;
     }
     if (is_unstated && own == 0) continue;
@@ -131,6 +134,8 @@ UsedNumbers used_numbers(const Campaign& campaign) {
       number.said_by = fmt::format("set-up of {} of {} trials", own, of_trials.size());
     } else if (line != lines.end()) {
       number.source = UsedNumber::Source::model_file;
+      const auto error = errors.find(key);
+      number.written_error = error == errors.end() ? 0.0 : error->second;
       number.said_by = fmt::format("{}, line {}", campaign.model.filename().string(), line->second);
     } else {
       if (unused.contains(key)) continue;
@@ -141,6 +146,24 @@ UsedNumbers used_numbers(const Campaign& campaign) {
     used.numbers.push_back(std::move(number));
   }
   return used;
+}
+
+std::vector<std::string> stated_effects(const Campaign& campaign) {
+  std::vector<std::string> told;
+  if (campaign.model.empty()) return told;
+  const auto document = parse_config_file(campaign.model.string());
+  const auto* table = document.root.find("effects");
+  if (table == nullptr) return told;
+  const auto& effects =
+      std::visit([](const auto& plant) -> const BeliefEffects& { return plant.effects; }, campaign.belief);
+  for (const auto& node : table->children) {
+    std::vector<std::string> parameters;
+    for (const auto& [name, value] : effects.at(node.key))
+      parameters.push_back(fmt::format("{} = {:.6g}", name, value));
+    told.push_back(fmt::format("effects.\"{}\": {} ({}, line {})", node.key, fmt::join(parameters, ", "),
+                               campaign.model.filename().string(), node.key_position.line));
+  }
+  return told;
 }
 
 namespace {
@@ -221,34 +244,32 @@ std::vector<Finding> unused_key_notes(const Campaign& campaign) {
   return notes;
 }
 
-namespace {
-
-// Twelve digits: more than anybody writes, and fewer than a change of unit gets wrong.
-std::string as_written(double size) { return fmt::format("{:.12g}", size); }
-
-double half_of_last_digit(double size) {
-  const auto text = as_written(size);
-  const auto exponent_at = text.find('e');
-  const int exponent = exponent_at == std::string::npos ? 0 : std::stoi(text.substr(exponent_at + 1));
-  const auto digits = text.substr(0, exponent_at);
-  const auto point = digits.find('.');
-  const int decimals = point == std::string::npos ? 0 : static_cast<int>(digits.size() - point) - 1;
-  return 0.5 * std::pow(10.0, exponent - decimals);
-}
-
-}  // namespace
-
 double usual_error(const UsedNumber& n) {
   constexpr double kGravityOverTheEarth_mps2 = 0.027;  // 9.780 at the equator to 9.832 at the poles (WGS 84)
   const double size = std::max(std::abs(n.low), std::abs(n.high));
   if (n.source == UsedNumber::Source::plant_default)
     return n.key == "gravity_mps2" ? kGravityOverTheEarth_mps2 : size;
-  if (n.key.ends_with("_area_m2") && size > 0.0) {  // A = pi d^2 / 4 of a stated diameter: dA / A = 2 dd / d
-    const double diameter_m = 2.0 * std::sqrt(size / std::numbers::pi);
-    if (as_written(diameter_m).size() < as_written(size).size())
-      return 2.0 * size * half_of_last_digit(diameter_m) / diameter_m;
+  return n.written_error > 0.0 ? n.written_error : half_of_last_digit(size);
+}
+
+std::vector<KeySpread> rounding_of(const UsedNumbers& used, const Campaign& campaign) {
+  std::vector<KeySpread> rounding;
+  const auto is_said = [&](const std::string& key) {
+    return std::visit(
+        [&](const auto& plant) {
+          return std::ranges::count(plant.known_to, key, &KeySpread::key) +
+                     std::ranges::count(plant.key_spreads, key, &KeySpread::key) >
+                 0;
+        },
+        campaign.belief);
+  };
+  for (const auto& n : used.numbers) {
+    if (n.source != UsedNumber::Source::model_file || n.value == std::round(n.value) ||
+        n.key.starts_with("sensors.") || states_uncertainty(n.key) || is_said(n.key))
+      continue;
+    rounding.push_back({n.key, n.key, usual_error(n) / std::sqrt(3.0), false});
   }
-  return half_of_last_digit(size);
+  return rounding;
 }
 
 bool is_listed(const UsedNumber& n) {

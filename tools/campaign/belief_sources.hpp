@@ -21,6 +21,8 @@ struct UsedNumber {
   std::string unit{};
   Source source = Source::plant_default;
   std::string said_by{};  // "nominal.toml, line 5", "set-up of 3 trials", "default: <reason>"
+  // Half a unit of the last digit that was written, through the conversion that was done; 0: nobody wrote it.
+  double written_error = 0.0;
 };
 
 // Numbers of the belief that the model file or a set-up states, and defaults that are not 0 of keys that the
@@ -32,15 +34,23 @@ struct UsedNumbers {
 };
 UsedNumbers used_numbers(const Campaign& campaign);
 
-// Largest error to be expected from how a number is written: half a unit of its last digit (1.20 counts as
-// 1.2). For a default that nobody stated: its full size; for gravity: its variation over the Earth.
+// Largest error to be expected from how a number is written: half a unit of its last digit. For a default
+// that nobody stated: its full size; for gravity: its variation over the Earth.
 double usual_error(const UsedNumber& number);
+
+// Standard deviation of the rounding of each number in the model file, uniform within half a unit h of its
+// last digit, h / sqrt(3). Without numbers for which [known_to] or [spread] says more, without [sensors],
+// and without whole numbers, which may be exact (a factor of 1.0).
+std::vector<KeySpread> rounding_of(const UsedNumbers& used, const Campaign& campaign);
 
 // False for a default of [sensors] and [spread]. These stand together in one line, `defaults_of_sensors`.
 bool is_listed(const UsedNumber& number);
 std::string defaults_of_sensors(const UsedNumbers& used);  // empty if there are none
 
 std::string to_string(const UsedNumber& number);  // "axis.inertia_kg_m2 = 0.1 kg m^2 (nominal.toml, line 3)"
+
+// A line for each effect that [effects] of the model file puts in place, with its parameters and its line.
+std::vector<std::string> stated_effects(const Campaign& campaign);
 
 // One finding for each number that the plant needs (belief_notes.hpp) and that neither the model file nor
 // every trial states. None for a hopper, because its belief is this project's robot.

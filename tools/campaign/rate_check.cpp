@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "tools/campaign/flat_ends.hpp"
 #include "tools/campaign/implausible.hpp"
 
 namespace sandhopper {
@@ -29,6 +30,7 @@ constexpr std::array kPairs{Pair{"position_rad", "velocity_radps"}, Pair{"foot_z
 struct Slope {
   double slope = 0.0, together = 0.0;
 };
+constexpr double kCorrelates = 0.8;
 
 // Ratios of the units of a position, a speed and a time, and the unit that explains them.
 struct Known {
@@ -71,31 +73,55 @@ class RateChecker {
       if (!recording_.has(pair.position) || !recording_.has(pair.speed)) continue;
       const auto found = slope(pair.position, pair.speed);
       if (!found || look_for_crossing(pair, *found) || look_for_exchange(pair, *found)) continue;
-      if (found->together > 0.8) judge(pair, *found);
+      if (found->together > kCorrelates) judge(pair, *found);
     }
   }
 
  private:
+  // From the rows in which neither stands at an end of its range, where these correlate: a speed that is
+  // clipped is no speed in another unit, whose ratio is the same at all speeds.
   std::optional<Slope> slope(std::string_view position, std::string_view speed) const {
+    constexpr double kOneRatio = 0.98;  // of clean data; a sine against its square wave has 8 / pi^2 = 0.81
     const auto x = recording_.channel(position), v = recording_.channel(speed);
+    auto ends = stands_at_an_end(v);
+    const auto ends_of_position = stands_at_an_end(x);
+    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = ends[i] || ends_of_position[i];
+    const auto all = slope_of(x, v, std::vector<bool>(ends.size(), false));
+    if (std::ranges::count(ends, true) == 0) return all;
+    const auto between = slope_of(x, v, ends);
+    const bool is_told_between = between && between->together > kCorrelates;
+    if (!is_told_between && all && all->together >= kOneRatio) return all;
+    return between;
+  }
+
+  // Windows end before a row that is `left_out`.
+  std::optional<Slope> slope_of(std::span<const double> x, std::span<const double> v,
+                                const std::vector<bool>& left_out) const {
     const std::size_t n = recording_.rows(), span = std::max<std::size_t>(1, n / 20);
     double dd = 0.0, dv = 0.0, vv = 0.0;
     std::size_t count = 0;
-    for (std::size_t i = 0; i + span < n; ++i) {
-      if (std::isnan(x[i]) || std::isnan(x[i + span])) continue;
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      std::size_t end = i;
+      while (end < std::min(i + span, n - 1) && !left_out[i] && !left_out[end + 1]) ++end;
+      if (end == i || std::isnan(x[i]) || std::isnan(x[end])) continue;
+      if (end < i + span && !left_out_after(end, left_out)) break;  // the end of the recording
       double mean = 0.0;
       std::size_t samples = 0;
-      for (std::size_t k = i; k <= i + span; ++k)
+      for (std::size_t k = i; k <= end; ++k)
         if (!std::isnan(v[k])) mean += v[k], ++samples;
-      const double step_s = recording_.t_s[i + span] - recording_.t_s[i];
+      const double step_s = recording_.t_s[end] - recording_.t_s[i];
       if (samples == 0 || !(step_s > 0.0)) continue;
       mean /= static_cast<double>(samples);
-      const double rate = (x[i + span] - x[i]) / step_s;
+      const double rate = (x[end] - x[i]) / step_s;
       dd += rate * rate, dv += rate * mean, vv += mean * mean;
       ++count;
     }
     if (count < 10 || dd <= 0.0 || vv <= 0.0) return std::nullopt;
     return Slope{dv / dd, dv * dv / (dd * vv)};
+  }
+
+  static bool left_out_after(std::size_t row, const std::vector<bool>& left_out) {
+    return row + 1 < left_out.size() && left_out[row + 1];
   }
 
   // The nearest ratio within `tolerance`.
@@ -143,12 +169,12 @@ class RateChecker {
     const auto* pair = std::ranges::find(kPairs, position, &Pair::position);
     if (pair == kPairs.end() || !recording_.has(pair->speed)) return false;
     const auto own = slope(position, pair->speed);
-    return own && own->together > 0.8;
+    return own && own->together > kCorrelates;
   }
 
   // A speed that is the rate of another channel: the position and that channel are exchanged.
   bool look_for_exchange(const Pair& pair, const Slope& own) {
-    if (own.together > 0.8 && own.slope > 0.2 && own.slope < 5.0) return false;
+    if (own.together > kCorrelates && own.slope > 0.2 && own.slope < 5.0) return false;
     const TrialRecording::Channel* best = nullptr;
     Slope most{0.0, std::max(0.9, own.together + 0.1)};
     for (const auto& other : recording_.channels) {

@@ -213,24 +213,24 @@ class Reader {
     if (out_.own_log) return mapping.scale;
     const auto units = units_of(i, mapping);
     if (const auto exchanged = find_exchange(table_, trial_, campaign_.plant, units))
-      return complain_of_exchange(i, mapping, *exchanged);
+      return complain_of_unit(i, mapping, trial_unusable, exchanged->what, exchanged->cure), std::nullopt;
     const auto verdict = check_unit(units);
+    if (!verdict.overruled.empty())
+      complain_of_unit(i, mapping, note, verdict.overruled, "taken as stated in [columns]");
     if (verdict.problem.empty()) {
       places_.columns.push_back(used_column(units, verdict.scale, mapping.offset, mapping.is_stated()));
       return verdict.scale;
     }
-    const bool by_row = table_.layout.units_line > 0 && !table_.units[i].empty();
-    add(FindingKind::unit_disagrees, trial_unusable,
-        by_row ? table_.layout.units_line : table_.layout.header_line, header_character(i), table_.names[i],
-        fmt::format("for {}: {}", mapping.channel, verdict.problem), verdict.cure);
+    complain_of_unit(i, mapping, trial_unusable, verdict.problem, verdict.cure);
     return std::nullopt;
   }
 
-  std::optional<double> complain_of_exchange(std::size_t i, const ColumnMapping& mapping,
-                                             const Exchange& exchange) {
-    add(FindingKind::unit_disagrees, trial_unusable, table_.layout.header_line, header_character(i),
-        table_.names[i], fmt::format("for {}: {}", mapping.channel, exchange.what), exchange.cure);
-    return std::nullopt;
+  void complain_of_unit(std::size_t i, const ColumnMapping& mapping, FindingSeverity severity,
+                        std::string_view what, std::string cure) {
+    const bool by_row = table_.layout.units_line > 0 && !table_.units[i].empty();
+    add(FindingKind::unit_disagrees, severity, by_row ? table_.layout.units_line : table_.layout.header_line,
+        header_character(i), table_.names[i], fmt::format("for {}: {}", mapping.channel, what),
+        std::move(cure));
   }
 
   void take(std::size_t i, const ColumnMapping& mapping) {

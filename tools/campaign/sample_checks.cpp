@@ -6,6 +6,8 @@
 #include "tools/campaign/fall_accel_check.hpp"
 #include "tools/campaign/fall_check.hpp"
 #include "tools/campaign/fall_limits.hpp"
+#include "tools/campaign/force_unit_check.hpp"
+#include "tools/campaign/free_swing_check.hpp"
 #include "tools/campaign/gravity_check.hpp"
 #include "tools/campaign/hopper_check.hpp"
 #include "tools/campaign/interpolated_samples.hpp"
@@ -14,6 +16,7 @@
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/press_speed_check.hpp"
 #include "tools/campaign/rate_check.hpp"
+#include "tools/campaign/rest_before_fall.hpp"
 #include "tools/campaign/sample_times.hpp"
 #include "tools/campaign/sensor_signs.hpp"
 #include "tools/campaign/surface_check.hpp"
@@ -29,11 +32,14 @@ void check_samples(TrialRecording& recording, const Campaign& campaign, const Ca
   check_lost_forces(recording, places);
   check_plausible(recording, campaign, trial, places);
   check_depth_unit(recording, campaign, trial, places);
+  check_force_unit(recording, campaign, trial, places);
   check_rates(recording, places);
   check_gravity(recording, places);
   check_falls(recording, campaign, trial, places);
   check_fall_limits(recording, campaign, trial, places);
+  check_rest_before_fall(recording, campaign, trial, places);
   check_press_speed(recording, campaign, trial, places);
+  check_free_swing(recording, campaign, trial, places);
   check_axis_torque(recording, campaign, trial, places);
   check_hopper(recording, campaign, trial, places);
   if (!check_fall_acceleration(recording, campaign, trial, places))

@@ -60,13 +60,13 @@ UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const
 UnitVerdict stated_alone(ColumnUnits c, double factor, const WrittenUnit& wanted) {
   c.scale = factor;
   const auto [unit, where] = unit_in_file(c);
-  if (!unit) return {factor, "", ""};
+  if (!unit) return {.scale = factor};
   // An unknown word contradicts nothing, but a factor does: unit = "N" for "F (N, x1000)" says nothing of it.
-  if (unit->dimension.empty() && !holds_factor(unit->text)) return {factor, "", ""};
+  if (unit->dimension.empty() && !holds_factor(unit->text)) return {.scale = factor};
   if (const auto files = factor_between(*unit, wanted))
-    return same(factor, *files) ? UnitVerdict{factor, "", ""}
+    return same(factor, *files) ? UnitVerdict{.scale = factor}
                                 : disagreement(c, *unit, wanted, *files, where, c.stated_unit);
-  if (!unit->is_certain) return {factor, "", ""};
+  if (!unit->is_certain) return {.scale = factor};
   auto verdict = other_dimension(c, *unit, wanted, where);
   verdict.problem += fmt::format(", and unit = \"{}\" alone does not settle it", c.stated_unit);
   verdict.cure += fmt::format(", or, if the numbers are in {} after all, {}; or name another column",
@@ -74,18 +74,31 @@ UnitVerdict stated_alone(ColumnUnits c, double factor, const WrittenUnit& wanted
   return verdict;
 }
 
+// Example: "its name says "deg", and [columns] unit = "rad", scale = 1: 19.86 deg would be 0.3466 rad".
+std::string overruled(const ColumnUnits& c, double factor, const WrittenUnit& wanted) {
+  const auto [unit, where] = unit_in_file(c);
+  if (!unit || !unit->is_certain) return "";
+  const auto files = factor_between(*unit, wanted);
+  if (!files || same(factor, *files) || same(c.scale, *files)) return "";
+  return fmt::format(
+      "{} \"{}\", and [columns] overrules it with unit = \"{}\", scale = {:.6g}: {:.4g} {} "
+      "would be {:.4g} {}, and are taken as {:.4g} {}",
+      where, unit->text, c.stated_unit, c.scale, c.largest, unit->text, c.largest * *files, wanted.text,
+      c.largest * std::abs(c.scale), wanted.text);
+}
+
 UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {
   const auto unit = read_unit(c.stated_unit, true);
   const auto factor = unit ? factor_between(*unit, wanted) : std::nullopt;
   if (!factor) {
-    if (c.has_scale) return {c.scale, "", ""};
+    if (c.has_scale) return {.scale = c.scale};
     const WrittenUnit none{c.stated_unit, unit ? unit->dimension : "", 0.0};
     return other_dimension(c, none, wanted, "is stated in");
   }
   if (!c.has_scale) return stated_alone(c, *factor, wanted);
   const bool contradicts = !same(c.scale, *factor) && is_ratio_of_units(c.scale / *factor, wanted.dimension);
   if (contradicts) return disagreement(c, *unit, wanted, *factor, "its mapping states the unit", wanted.text);
-  return {c.scale, "", ""};
+  return {.scale = c.scale, .overruled = overruled(c, *factor, wanted)};
 }
 
 }  // namespace
@@ -103,16 +116,16 @@ UnitVerdict check_unit(const ColumnUnits& c) {
             fmt::format(
                 "write its unit in place of \"?\" in [columns]: {} = {{ column = \"{}\", unit = \"{}\" }}",
                 c.channel, c.column, wanted ? wanted->text : "…")};
-  if (!wanted) return {c.scale, "", ""};
+  if (!wanted) return {.scale = c.scale};
   if (!c.stated_unit.empty()) return stated(c, *wanted);
   const auto [unit, where] = unit_in_file(c);
-  if (!unit) return {c.scale, "", ""};
+  if (!unit) return {.scale = c.scale};
   const auto factor = factor_between(*unit, *wanted);
   if (!factor) {
-    if (!unit->is_certain || (c.has_scale && !same(c.scale, 1.0))) return {c.scale, "", ""};
+    if (!unit->is_certain || (c.has_scale && !same(c.scale, 1.0))) return {.scale = c.scale};
     return other_dimension(c, *unit, *wanted, where);
   }
-  if (same(c.scale, *factor)) return {c.scale, "", ""};
+  if (same(c.scale, *factor)) return {.scale = c.scale};
   return disagreement(c, *unit, *wanted, *factor, where, wanted->text);
 }
 

@@ -35,13 +35,15 @@ struct UnitVerdict {
   double scale = 1.0;
   std::string problem{};  // empty: `scale` can be used
   std::string cure{};
+  std::string overruled{};  // The unit in the file that `unit` and `scale` overrule, with the arithmetic.
 };
 
 // Compares the unit in the column's name, in the row of units and in `unit` with the channel's unit and
 // `scale`. f: factor from the written unit to the channel's unit; right if |scale| / f = 1 within kSameScale.
 // `unit` alone gives the scale, but it must agree with the file. `unit` and `scale` together overrule the
-// file; they only must not contradict each other (their ratio must not be that of two other units of the
-// dimension). A scale from another dimension (volts of a load cell) is accepted if it is written down.
+// file, which is told (`overruled`); they only must not contradict each other (their ratio must not be that
+// of two other units of the dimension). A scale from another dimension (volts of a load cell) is accepted if
+// it is written down.
 UnitVerdict check_unit(const ColumnUnits& column);
 
 }  // namespace sandhopper

@@ -91,14 +91,20 @@ ExitCode check(Session& session, const Options& options) {
     if (is_listed(number)) session.say("  {}", to_string(number));
     numbers.push_back(to_json(number));
   }
+  const auto effects = stated_effects(campaign);
+  for (const auto& effect : effects) session.say("  {}", effect);
   if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("  {}", defaults);
   session.say("  {} more numbers are 0 by default: what they stand for is not assumed", used.off);
   session.say("{}: plant {}, {} trials, {} usable{}", campaign.name, name_of(campaign.plant),
               campaign.trials.size(), usable, lost.words());
-  session.result = {
-      {"campaign", campaign.name}, {"plant", name_of(campaign.plant)}, {"trials", campaign.trials.size()},
-      {"usable", usable},          {"without", lost.trials()},         {"findings", findings},
-      {"belief", numbers}};
+  session.result = {{"campaign", campaign.name},
+                    {"plant", name_of(campaign.plant)},
+                    {"trials", campaign.trials.size()},
+                    {"usable", usable},
+                    {"without", lost.trials()},
+                    {"findings", findings},
+                    {"belief", numbers},
+                    {"effects", effects}};
   return usable == campaign.trials.size() && campaign.findings.empty() && !any_unusable(missing)
              ? ExitCode::ok
              : ExitCode::no;

@@ -20,9 +20,9 @@
 #include "tools/diagnose/answer/residuals_csv.hpp"
 #include "tools/diagnose/answer/spread_text.hpp"
 #include "tools/diagnose/discrepancy/port_error_evidence.hpp"
-#include "tools/diagnose/engine.hpp"
 #include "tools/diagnose/evidence/form_error_evidence.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
+#include "tools/diagnose/rounded_belief.hpp"
 #include "tools/report/digits.hpp"
 
 namespace sandhopper::cli {
@@ -187,7 +187,8 @@ ExitCode diagnose(Session& session, const Options& options) {
   };
   engine.stop = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > options.limit_s; };
   const auto first = first_answer(campaign.model);  // before this answer may overwrite it
-  auto diagnosis = sandhopper::diagnose::diagnose(input.recordings, engine);
+  auto diagnosis =
+      sandhopper::diagnose::diagnose_as_written(input.recordings, engine, rounding_of(used, campaign));
   diagnosis.first = first;
   const auto corrected = corrected_file(folder, campaign.model);
   if (!diagnosis.corrected_model_toml.empty()) diagnosis.corrected_model_file = corrected.filename().string();
@@ -197,6 +198,7 @@ ExitCode diagnose(Session& session, const Options& options) {
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say_line(sandhopper::diagnose::to_text(diagnosis));
   tell_belief(session, used, diagnosis.belief);
+  for (const auto& effect : stated_effects(campaign)) session.say("belief {}", effect);
   tell_assumed_spreads(session, diagnosis);
   if (!diagnosis.corrected_model_toml.empty()) {
     write(corrected, diagnosis.corrected_model_toml);

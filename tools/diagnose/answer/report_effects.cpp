@@ -137,15 +137,6 @@ std::vector<std::string> class_of(const Problem& problem, std::size_t c, const P
 
 }  // namespace
 
-std::string change_of(const std::string& name) {
-  for (const char* unit :
-       {"_N_s2_per_m2", "_N_s_per_m", "_N_per_m3", "_N_per_m", "_Nm_per_A", "_Nm_s2", "_Nm_s", "_kg_m2",
-        "_radps", "_mps2", "_mps", "_rad", "_Nm", "_kg", "_N", "_m", "_s"})
-    if (name.ends_with(unit))
-      return name.substr(0, name.size() - std::string(unit).size()) + "_change" + unit;
-  return name + "_change";
-}
-
 double form_deviance(const Problem& problem, double explained) {
   constexpr double kAlong = 1.0 / 6.0;  // RMS share of a residual along a parameter
   return kAlong * kAlong * problem.plant->form_error() * std::max(0.0, explained);

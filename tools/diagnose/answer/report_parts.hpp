@@ -6,6 +6,7 @@
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
 #include "tools/diagnose/fit/residuals.hpp"
+#include "tools/diagnose/model/parameter_names.hpp"
 #include "tools/diagnose/recordings/data_faults.hpp"
 #include "tools/diagnose/recordings/events.hpp"
 
@@ -48,8 +49,6 @@ void report_trial_to_trial(const Problem& problem, const Search& search, const s
 void report_residuals(const Problem& problem, const Residuals& residuals, Diagnosis& diagnosis);
 void report_traces(const Problem& problem, const Recordings& recordings, const Residuals& residuals,
                    Diagnosis& diagnosis);
-// Name of the change of a number of the belief: "mass_kg" -> "mass_change_kg".
-std::string change_of(const std::string& name);
 // Bounds of the effects that were not found.
 void report_absent(const Problem& problem, Search& search, Diagnosis& diagnosis);
 // Sets `error_that_shows` of each number of `diagnosis.belief`.

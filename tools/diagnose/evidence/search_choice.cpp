@@ -13,9 +13,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Possible further drop of a rough fit, relative to the explained deviance: of every set, and of the
-// `kNearestRivals` nearest sets.
-constexpr double kUnsettled = 1e-5, kFarUnsettled = 0.02;
+// Possible further drop of a rough fit, relative to the explained deviance. The `kNearestRivals` nearest sets
+// are completed if they explain all but kLevel of it.
+constexpr double kUnsettled = 1e-5;
 constexpr std::size_t kNearestRivals = 3;
 // The real drop of the deviance may be this many times its linear estimate.
 constexpr double kPromiseShort = 1.5;
@@ -78,7 +78,7 @@ void Search::finish_rivals() {
   const double explained = (null().fit.deviance - best().fit.deviance) / dispersion_;
   const double best_so_far = criterion(best()),
                limit = best_so_far + std::max(kRival, kUnsettled * explained),
-               far = best_so_far + std::max(kRival, kFarUnsettled * explained);
+               far = best_so_far + std::max(kRival, kLevel * explained);
   std::vector<SetFit*> order;
   for (auto& [set, fit] : sets_)
     if (set.size() <= best_.size()) order.push_back(&fit);

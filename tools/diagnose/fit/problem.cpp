@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "tools/diagnose/discrepancy/free_laws.hpp"
+#include "tools/diagnose/model/parameter_names.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -38,9 +39,8 @@ std::vector<std::string> put_in_place(Problem& problem) {
     }
     std::vector<double> values;
     for (const auto& parameter : candidate->effect->parameters(stated, candidate->channel)) {
-      const auto it = given.find(parameter.name);
-      values.push_back(it == given.end() ? (values.empty() ? 0.0 : parameter.typical)
-                                         : parameter.value_of(it->second));
+      const double unstated = values.empty() ? 0.0 : parameter.typical;
+      values.push_back(given_value(parameter, given).value_or(unstated));
     }
     candidate->effect->apply(stated, candidate->channel, values, problem.in_place);
   }

@@ -7,6 +7,7 @@
 #include "config/hint.hpp"
 #include "config/load.hpp"
 #include "tools/diagnose/model/effect.hpp"
+#include "tools/diagnose/model/parameter_names.hpp"
 #include "tools/diagnose/recordings/campaign_input.hpp"
 
 namespace sandhopper::diagnose {
@@ -90,12 +91,22 @@ class Refuser {
 
   // An effect without parameters here cannot show in this context: its parameters are not known.
   void check_parameters(const ConfigNode& node, const std::vector<EffectParameter>& parameters) {
-    Names names;
-    for (const auto& parameter : parameters) names.push_back(parameter.name);
+    Names names, own;
+    for (const auto& parameter : parameters) {
+      own.push_back(parameter.name);
+      Names stated;
+      for (const auto& name : names_in_effects(parameter)) {
+        names.push_back(name);
+        if (node.find(name) != nullptr) stated.push_back(name);
+      }
+      if (stated.size() > 1)
+        refuse(*node.find(stated[1]), fmt::format("'{}' and '{}' of '{}' are the same parameter: state one",
+                                                  stated[0], stated[1], node.key));
+    }
     for (const auto& child : node.children)
       if (!names.empty() && std::ranges::find(names, child.key) == names.end())
         refuse(child, fmt::format("'{}' is no parameter of '{}'{}", child.key, node.key,
-                                  did_you_mean(child.key, names)));
+                                  did_you_mean(child.key, own)));
   }
 
   void refuse(const ConfigNode& node, std::string text) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tools/campaign/belief.hpp"
+#include "tools/campaign/rest_before_fall.hpp"
 #include "tools/diagnose/plants/falling_body/falling_body_recording.hpp"
 #include "tools/diagnose/plants/falling_body/falling_simulation.hpp"
 #include "tools/diagnose/plants/falling_body/release_spread.hpp"
@@ -72,7 +73,7 @@ class FallingTrial final : public TrialModel {
     for (const auto* s : {&heights, &accels})
       if (!s->empty()) step_s = std::min(step_s, median_step_s(s->time_s));
     fall_.step_s = std::clamp(step_s, fall_.bed ? 2.5e-4 : 5e-4, fall_.bed ? 5e-4 : 5e-3);
-    find_release(heights, accels);
+    find_release(trial, heights, accels);
     if (fall_.bed && fall_.held && !height_known) find_stop(accels);
     place(trial, heights);
     if (fall_.bed && fall_.impact_s < 0.0) find_touchdown(heights, accels);
@@ -129,12 +130,14 @@ class FallingTrial final : public TrialModel {
   }
 
   // Finds the release. The recording may begin while the body is still held.
-  void find_release(const Samples& heights, const Samples& accels) {
+  void find_release(const Trial& trial, const Samples& heights, const Samples& accels) {
     const double g = fall_.belief.value("gravity_mps2", 9.81);
     auto found_s = release_before_shock_s(accels, g);
     if (!found_s) found_s = loss_of_weight_s(accels, g);
     if (!found_s)
       found_s = end_of_rest_s(heights, fall_.belief.value("sensors.height_noise_m"), released_mps2());
+    if (!found_s && height_told_ && accels.empty() && told_speed_mps(trial) == 0.0)
+      found_s = rest_before_fall_s(heights.time_s, heights.value);
     fall_.held = found_s.has_value();
     fall_.release_s = found_s.value_or(0.0);
     if (fall_.held || !accels.empty() || height_told_) return;
@@ -220,8 +223,7 @@ class FallingTrial final : public TrialModel {
     fall_.start_height_m = told ? trial.setup_or("release_height_m", 0.0) : seen;
     // A drop has a positive speed downward in the set-up. It is upward if the heights rise, or if
     // choose_direction() finds so.
-    const double told_mps =
-        std::abs(trial.setup_or("release_speed_mps", trial.setup_or("impact_speed_mps", 0.0)));
+    const double told_mps = std::abs(told_speed_mps(trial));
     const bool rises = heights.value.size() > 5 && heights.value[5] > heights.value[0];
     fall_.start_speed_mps = rises ? told_mps : -told_mps;
     if (fall_.impact_s >= 0.0) fall_.start_speed_mps = fall_speed_mps_;

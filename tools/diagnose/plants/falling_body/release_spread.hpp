@@ -6,6 +6,11 @@
 
 namespace sandhopper::diagnose {
 
+// Speed with which the set-up lets the body go; 0: at rest, or not stated.
+inline double told_speed_mps(const Trial& trial) {
+  return trial.setup_or("release_speed_mps", trial.setup_or("impact_speed_mps", 0.0));
+}
+
 // Standard deviation of the release speed of a trial whose set-up states `told_mps`. A part of it may be a
 // share of that speed; then it is 0 for a body that is let go at rest. `unstated_mps`: if [spread] has none.
 inline double release_speed_sd_mps(const Belief& belief, double told_mps, double unstated_mps) {

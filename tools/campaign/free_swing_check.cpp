@@ -1,0 +1,110 @@
+#include "tools/campaign/free_swing_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/campaign/implausible.hpp"
+
+namespace sandhopper {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+// The median of every five samples: a reading that failed once or twice is no motion.
+std::vector<double> without_spikes(std::span<const double> values) {
+  std::vector<double> fresh, out;
+  std::ranges::copy_if(values, std::back_inserter(fresh), [](double value) { return !std::isnan(value); });
+  for (std::size_t i = 0; i + 5 <= fresh.size(); ++i) {
+    std::array<double, 5> five{};
+    std::copy_n(fresh.begin() + static_cast<std::ptrdiff_t>(i), 5, five.begin());
+    std::ranges::nth_element(five, five.begin() + 2);
+    out.push_back(five[2]);
+  }
+  return out;
+}
+
+// The way in one direction that is followed by the same way or more in the other.
+double way_there_and_back(const std::vector<double>& angles) {
+  double low = angles.front(), high = angles.front();  // of all before
+  double rise = 0.0, fall = 0.0;                       // largest so far
+  double best = 0.0;
+  // After a rise, the fall from the highest angle; after a fall, the rise from the lowest.
+  double top_after_low = -std::numeric_limits<double>::infinity(), low_after_top = -top_after_low;
+  for (const double angle : angles) {
+    low = std::min(low, angle), high = std::max(high, angle);
+    if (angle - low >= rise) rise = angle - low, top_after_low = angle;
+    if (high - angle >= fall) fall = high - angle, low_after_top = angle;
+    best = std::max({best, std::min(rise, top_after_low - angle), std::min(fall, angle - low_after_top)});
+  }
+  return best;
+}
+
+bool swings_free(const TrialRecording& recording, const CampaignTrial& trial) {
+  if (const auto enabled = trial.flag("motor_enabled")) return !*enabled;
+  const bool has_torque = recording.has("torque_Nm") ||
+                          std::ranges::find(recording.at_one_value, "torque_Nm",
+                                            &TrialRecording::Channel::name) != recording.at_one_value.end();
+  return !has_torque && trial.text("profile").value_or("release") == "release";
+}
+
+struct AngleDoubt {
+  std::string what;
+  double factor = 1.0;  // of the column's scale, if another unit is what is wrong
+};
+
+AngleDoubt doubt_of_angle(const std::vector<double>& angles, const CampaignTrial& trial) {
+  const auto [low, high] = std::ranges::minmax(angles);
+  if (const double way = way_there_and_back(angles); way > kTurn_rad)
+    return {fmt::format("turns by {:.3g} rad and back, more than one turn, and a pendulum that swings free "
+                        "and turns round stays within one turn (6.28 rad): degrees taken for rad, or the "
+                        "angle of a motor before its gear",
+                        way),
+            kDegree_rad};
+  const double release = std::abs(trial.number("release_position_rad").value_or(0.0));
+  if (!(release > 0.0)) return {};
+  const double half = 0.5 * (high - low), between = std::sqrt(1.0 / kDegree_rad);
+  if (half > between * release)
+    return {fmt::format("swings by {:.3g} rad to either side, and release_position_rad is {:.4g}: a pendulum "
+                        "that is let go swings no farther than that",
+                        half, release),
+            kDegree_rad};
+  constexpr double kNearRelease = 0.2;  // as kNearHeight of fall_limits.cpp: the zero, and rows that are cut
+  const bool starts_small = std::abs(std::abs(angles.front()) / (release * kDegree_rad) - 1.0) < kNearRelease;
+  if (starts_small && half < (1.0 + kNearRelease) * release * kDegree_rad)
+    return {fmt::format("starts at {:.3g} rad, and release_position_rad is {:.4g}, {:.3g} times that",
+                        angles.front(), release, release / std::abs(angles.front())),
+            1.0 / kDegree_rad};
+  return {};
+}
+
+}  // namespace
+
+void check_free_swing(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                      const RecordingPlaces& places) {
+  const auto* belief = std::get_if<RotaryAxisBelief>(&trial.belief);
+  if (campaign.plant != CampaignPlant::rotary_axis || belief == nullptr || !recording.has_time) return;
+  if (trial.kind != TrialKind::motion || !recording.has("position_rad") || any_unusable(recording.findings))
+    return;
+  if (!(belief->axis.gravity_torque_Nm > 0.0) || !swings_free(recording, trial)) return;
+  const auto angles = without_spikes(recording.channel("position_rad"));
+  if (angles.empty()) return;
+  auto doubt = doubt_of_angle(angles, trial);
+  if (doubt.what.empty()) return;
+  const auto* column = places.column_of("position_rad");
+  doubt_column(recording, places, places.is_stated("position_rad"), "position_rad", std::move(doubt.what),
+               column == nullptr ? "correct the unit of position_rad"
+                                 : fmt::format("if so write {} into [columns], or correct the set-up",
+                                               mapping_line(in_other_unit(*column, doubt.factor))));
+}
+
+}  // namespace sandhopper

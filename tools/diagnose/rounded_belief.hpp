@@ -1,0 +1,16 @@
+#pragma once
+#include <vector>
+
+#include "tools/diagnose/engine.hpp"
+
+namespace sandhopper::diagnose {
+
+// diagnose(), which takes the numbers of the belief as exact, and once more if that names something while the
+// rounding of a number would show: then the numbers in `rounding` for which this holds are known to their
+// rounding only, as [known_to] says it. The second answer counts if it needs fewer effects and no number is
+// off by more than half a digit; a note names the numbers. Hoppers are not diagnosed twice, because they take
+// minutes.
+Diagnosis diagnose_as_written(const Recordings& recordings, const EngineOptions& options,
+                              const std::vector<KeySpread>& rounding);
+
+}  // namespace sandhopper::diagnose
