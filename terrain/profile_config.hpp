@@ -3,6 +3,10 @@
 
 namespace sandhopper {
 
+// Time constant of the foot's accelerometer: its low-pass at 400 Hz, a quarter of its rate
+// (config/linux.toml).
+inline constexpr double kAccelLowPass_s = 0.0004;
+
 // Prior of the strength profile (strength_profile.hpp); noise and nuisances are those of the joint fit.
 struct ProfileConfig {
   // Expected tangent stiffness of the bed, and the standard deviation of the real one relative to it. The
@@ -14,13 +18,13 @@ struct ProfileConfig {
   double steady_drag_sd = 0.5;
   // Depth at contact (strength_profile.hpp). The mean force at which contact is found is less than the
   // threshold by `contact_early_N`, because the first of several noisy samples exceeds it. The depth belongs
-  // to the motors' reply, and the accelerometer can feel the blow after it: in the mean the foot is
-  // `contact_time_s` after the surface, which is negative. That time is -0.161 to -0.168 ms on each of nine
-  // families (`hop experiment beds` prints what remains of it); the others are means and standard deviations
-  // in 1200 simulated first strides on each of six families.
+  // to the motors' reply, and the accelerometer can feel the blow after it: in the mean the depth is
+  // `contact_time_s` after the time at which the low-passed force exceeds the threshold, which is negative.
+  // `hop experiment beds` prints what remains of that time; the others are means and standard deviations in
+  // 1200 simulated first strides on each of six families.
   double contact_early_N = 0.3;
   double contact_force_sd_N = 0.25;
-  double contact_time_s = -0.00017;
+  double contact_time_s = -0.00024;
   double contact_time_sd_s = 0.00034;
   // Other errors of the estimated depth in a first stride: of the surface, the Kalman filter's error s_x and
   // its decay a, the lag, and the rest. a is that of the filter with the noise of config/robot.toml. The

@@ -118,8 +118,9 @@ void ProfileSolver::take_inertia(const Information& info) noexcept {
     }
 }
 
-// Fixes c and lambda at their estimates.
+// Fixes c and lambda at their estimates. A lambda that is not estimated yet keeps its prior variance.
 void ProfileSolver::hold_inertia(Information& info) const noexcept {
+  const double precision = inertia_.fitted ? 1.0 : 1.0 / (prior_.steady_drag_sd * prior_.steady_drag_sd);
   for (std::size_t a = 0; a < kInertia.size(); ++a) {
     const std::size_t term = kInertia[a];
     if (!inertia_.holds(term)) continue;
@@ -127,8 +128,8 @@ void ProfileSolver::hold_inertia(Information& info) const noexcept {
       info.moment[i] -= inertia_.mean[a] * info.normal[i * kTerms + term];
       info.normal[i * kTerms + term] = info.normal[term * kTerms + i] = 0.0;
     }
-    info.normal[term * kTerms + term] = 1.0;
-    info.moment[term] = inertia_.mean[a];
+    info.normal[term * kTerms + term] = precision;
+    info.moment[term] = precision * inertia_.mean[a];
   }
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 #include "terrain/strength_profile.hpp"
 
@@ -46,7 +45,8 @@ void ProfileSolver::take_responses(const ProfileSums& sums, const Information& i
     response[kScale] += sum(F::motor);
     response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
     response[kSteadyDrag] += sum(F::steady_drag);
-    const double friction = sum(F::friction) / info.friction_normal, depth = slope_N_per_m_[s] * sum(F::one);
+    const double friction = sum(F::friction) / info.friction_normal,
+                 depth = slope_N_per_m_[s] * sum(F::one);
     for (std::size_t i = 0; i < kTerms; ++i)
       response[i] += depth * begins_of_[i] - friction * info.with_friction[i];
   }
@@ -63,47 +63,6 @@ void ProfileSolver::begin_depth_errors(bool in_crater) noexcept {
   }
   kept_errors_.with_depth = {};
   kept_errors_.of_earlier_surface = kept_errors_.of_surface;
-}
-
-// The curve near the surface is taken as a line in each cell.
-ProfileSolver::ContactDepth ProfileSolver::contact_depth(double speed_mps,
-                                                         double added_mass_kg_per_m) const noexcept {
-  constexpr std::size_t kDeepest = std::tuple_size_v<decltype(ContactDepth::of_slope)>;  // cells
-  const double surface_m2 =
-      prior_.surface_sd_m * prior_.surface_sd_m + prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
-  if (!(speed_mps > 0.0)) return {0.0, surface_m2, {}};
-  const double c = std::max(posterior_.mean[kAddedMass], 0.0);
-  double missing_N =
-      config_.contact_force_N - prior_.contact_early_N - c * added_mass_kg_per_m * speed_mps * speed_mps;
-  ContactDepth depth{0.0, surface_m2, {}};
-  double force_sd_m = 0.0;
-  for (std::size_t j = 0; j < kDeepest && missing_N > 0.0; ++j) {
-    const double cell_N = kProfileCell_m * slope_N_per_m_[j];
-    const double share = cell_N > missing_N ? missing_N / cell_N : 1.0;
-    depth.mean_m += share * kProfileCell_m;
-    if (cell_N > missing_N) {
-      const double per_slope = -1.0 / slope_N_per_m_[j];
-      for (std::size_t i = 0; i < j; ++i) depth.of_slope[i] = per_slope * kProfileCell_m;
-      depth.of_slope[j] = per_slope * share * kProfileCell_m;
-    }
-    force_sd_m = std::min(prior_.contact_force_sd_N * kProfileCell_m / std::max(cell_N, 1e-9), depth.mean_m);
-    missing_N -= cell_N;
-  }
-  depth.mean_m += prior_.contact_time_s * speed_mps;
-  const double time_sd_m = prior_.contact_time_sd_s * speed_mps;
-  depth.variance_m2 += force_sd_m * force_sd_m + time_sd_m * time_sd_m;
-  return depth;
-}
-
-void ProfileSolver::expect_contact(const ProfileSums& sums) noexcept {
-  const auto depth = contact_depth(sums.contact_mps, sums.contact_added_mass_kg_per_m);
-  begins_m_ = depth.mean_m;
-  begins_of_ = {};
-  for (std::size_t j = 0; j < depth.of_slope.size(); ++j) {
-    begins_of_[j] = depth.of_slope[j];
-    begins_of_[kIntercept] += depth.of_slope[j] * intercept_N_per_m_[j];
-  }
-  kept_errors_.variance_m2 = depth.variance_m2;
 }
 
 // The mean of D is that of the previous posterior. To first order, a sample is F(z + D) with D plus the

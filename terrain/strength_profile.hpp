@@ -17,13 +17,17 @@
 // with A and f as in joint_fit.hpp, A_f the foot's area, Q the force from the motors' current, e the relative
 // error of the torque constant, d the depth at which the contact is detected, x the error of the Kalman
 // filter's height, t the time since contact, l a lag between force and depth, and v_0 the speed at contact.
-// Contact is detected when the force exceeds a threshold T, so a slow foot on soft ground is already deep:
-//   E d = d_T + t_c v_0,   F(d_T) + c m_a' v_0^2 = T, with the posterior's F and c
-//   var(d) = (s_T / F')^2 + (s_t v_0)^2 + s_d^2, of the noise of the force, the cycle, the surface
-// d_T depends on the curve that is sought, so its change with the slope of the first cells is a part of the
-// columns of the fit. t_c is the mean time from the surface to the motors' reply whose depth is taken, for a
-// foot whose blow alone exceeds T. The filter fuses an accelerometer whose noise is white with a white
-// height, so its error is stationary, and from the filter's Riccati equation follows
+// Contact is detected when the force behind the accelerometer's low-pass (time constant tau) exceeds a
+// threshold T. A slow foot on soft ground is then already deep, and on ground without inertia a fast foot is,
+// too. With the gain g = 1 - exp(-t / tau) and the blow B = (c m_a'(0) + lambda rho A_f) v_0^2
+//   d = v_0 (t + t_c),   B g + F(v_0 (t - tau g)) = T,   var(d) = var(v_0 t) + (s_t v_0)^2 + s_d^2
+// where t has the noise of T, s_t is that of the cycle and s_d that of the surface. c and lambda are known
+// roughly, and d is far from linear in them. So mean and variance of v_0 t are taken over their posterior, in
+// which c = lambda = 0 has a prior probability of its own (profile_contact.cpp). d depends on the curve that
+// is sought, so its change with the slope of the first cells is a part of the columns of the fit. t_c is the
+// mean time from there to the motors' reply whose depth is taken. The filter fuses an accelerometer whose
+// noise is white with a white height, so its error is stationary, and from the filter's Riccati equation
+// follows
 //   cov(x(t), x(t')) = s_x^2 exp(-a |t - t'|) cos(a (t - t')),  a = (q / 4 r)^(1/4)
 // q and r are the spectral densities of the noise of acceleration and height. (Gain K = (2 a, 2 a^2), so the
 // error decays and turns with a, and (exp((A - K C) t) P)_11 = P_11 exp(-a t) cos(a t).) So D grows like a
@@ -160,10 +164,11 @@ class ProfileSolver {
   std::size_t broken_cells() const noexcept { return broken_cells_; }
 
   // Depth at which a foot that lands on new ground with this speed is found in contact.
+  static constexpr std::size_t kContactCells = 2;
   struct ContactDepth {
     double mean_m = 0.0, variance_m2 = 0.0;
     // Change of the mean for a change of the tangent stiffness of the first cells [m per N/m].
-    std::array<double, 2> of_slope{};
+    std::array<double, kContactCells> of_slope{};
   };
   ContactDepth contact_depth(double speed_mps, double added_mass_kg_per_m) const noexcept;
 
@@ -247,6 +252,13 @@ class ProfileSolver {
                   bool with_gain) const noexcept;
   void take_responses(const ProfileSums& sums, const Information& information) noexcept;
   void take_line(const ProfileSums& sums) noexcept;
+  // Force of the ground's inertia on a foot at the surface, over the square of its speed.
+  struct Blow {
+    double mean_kg_per_m, sd_kg_per_m;
+    double odds_of_none;  // odds that the ground has no inertia
+  };
+  Blow blow_at_contact(double added_mass_kg_per_m) const noexcept;
+  ContactDepth found_at(double speed_mps, double blow_N) const noexcept;
   void begin_depth_errors(bool in_crater) noexcept;
   void expect_contact(const ProfileSums& sums) noexcept;
   double mean_depth_error_m(double change_mps) const noexcept;
@@ -277,11 +289,11 @@ class ProfileSolver {
 
   StiffnessConfig config_;
   ProfileConfig prior_;
-  std::array<double, kProfileCells> believed_N_per_m_{};   // mean tangent stiffness of each cell
-  std::array<double, kProfileCells> intercept_N_per_m_{};  // slope of k (1 - exp(-z/dz0))
-  std::array<double, kProfileCells> slope_N_per_m_{};      // tangent stiffness of the previous posterior
-  std::array<double, kProfileCells> noise_factor_{};       // variance of a cell's samples relative to that of
-                                                           // their weights
+  std::array<double, kProfileCells> believed_N_per_m_{};     // mean tangent stiffness of each cell
+  std::array<double, kProfileCells> intercept_N_per_m_{};    // slope of k (1 - exp(-z/dz0))
+  std::array<double, kProfileCells> slope_N_per_m_{};        // tangent stiffness of the previous posterior
+  std::array<double, kProfileCells> noise_factor_{};   // variance of a cell's samples relative to that of
+                                                       // their weights
   std::array<double, kProfileCells> unresolved_N2_{};  // variance that is attributed to the curve within a
                                                        // cell
   std::array<Misfit, kProfileCells> misfit_{}, stride_misfit_{};  // of the previous strides, of this one

@@ -133,29 +133,6 @@ TEST(ProfileMemory, DriftAndLagInACraterCountFromTheFirstSampleOnNewGround) {
   EXPECT_NEAR(regression.sums().last_change_mps, -0.1, 1e-12);
 }
 
-// Contact is found at a force. A slow foot is then deeper on softer ground. A fast one is not, because the
-// added mass alone gives that force.
-TEST(ProfileMemory, ASlowFootOnSoftGroundIsDeepWhenItIsFound) {
-  constexpr double kAddedMass_kg_per_m = 14.0, kSlow_mps = 0.1;
-  const auto contact = [&](double stiffness_N_per_m, double speed_mps) {
-    StiffnessConfig config;
-    config.profile = ProfileConfig{.believed_stiffness_N_per_m = stiffness_N_per_m};
-    config.joint.intercept_depth_m = 0.0;
-    return ProfileSolver(config).contact_depth(speed_mps, kAddedMass_kg_per_m);
-  };
-  const ProfileConfig prior;
-  const double needed_N =
-      StiffnessConfig{}.contact_force_N - prior.contact_early_N - kAddedMass_kg_per_m * kSlow_mps * kSlow_mps;
-  for (const double stiffness : {1000.0, 3000.0}) {
-    const auto depth = contact(stiffness, kSlow_mps);
-    EXPECT_NEAR(depth.mean_m, needed_N / stiffness + prior.contact_time_s * kSlow_mps, 1e-9);
-    EXPECT_GT(depth.variance_m2, std::pow(prior.contact_force_sd_N / stiffness, 2));
-  }
-  EXPECT_NEAR(contact(1000.0, 0.6).mean_m, prior.contact_time_s * 0.6, 1e-12);
-  EXPECT_LT(prior.contact_time_s, 0.0);         // the accelerometer feels the blow before the motors reply
-  EXPECT_EQ(contact(1000.0, 0.0).mean_m, 0.0);  // contact was not found by its force
-}
-
 // All depths of a stride are too small by the depth at contact, and its curve is corrected for that.
 TEST(ProfileMemory, TheExpectedDepthAtContactShiftsTheCurve) {
   ProfileSums sums = slow_push(1e-4, 0.030);

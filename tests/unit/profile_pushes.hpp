@@ -31,6 +31,7 @@ struct Push {
   double noise_N = 0.3;
   double too_deep_m = 0.0, depth_drift_mps = 0.0;
   double steady_drag = 0.0;  // lambda
+  double added_mass = 1.0;   // c
   unsigned seed = 1;
   double lasts = 3.5;    // in units of to_m / speed_mps
   bool contact = false;  // the contact's speed is known, and the depth has the errors of the filter and lag
@@ -68,9 +69,9 @@ inline ProfileSums sums_of(const Curve& curve, const Push& push) {
   for (double t = 1e-3; rate * t < push.lasts; t += 1e-3) {
     const double z = push.to_m * (1.0 - std::exp(-rate * t));
     const double v = push.speed_mps * std::exp(-rate * t), a = -rate * v;
-    const double drag_kg_per_m =
-        cone.added_mass_gradient_kg_per_m(z) + push.steady_drag * steady_drag_kg_per_m(kRadius_m);
-    const double force = curve(z) + drag_kg_per_m * v * v + cone.added_mass_kg(z) * a;
+    const double drag_kg_per_m = push.added_mass * cone.added_mass_gradient_kg_per_m(z) +
+                                 push.steady_drag * steady_drag_kg_per_m(kRadius_m);
+    const double force = curve(z) + drag_kg_per_m * v * v + push.added_mass * cone.added_mass_kg(z) * a;
     double depth_m = z + push.too_deep_m + push.depth_drift_mps * t;
     if (push.contact) depth_m += ProfileConfig{}.depth_lag_s * (push.speed_mps - v) + filter.next_m();
     regression.add({depth_m, v, a, force + noise(engine), -0.1, t, 1e-3}, force);
