@@ -37,6 +37,27 @@ bool within_half_a_digit(const std::vector<KeySpread>& rounding, const Diagnosis
   });
 }
 
+// True if a named effect, or one that cannot be told from it, changes one of these numbers by no more than
+// half a digit. How far a member of a class would change its number is not known here.
+bool may_be_rounding(const std::vector<KeySpread>& rounding, const Diagnosis& d) {
+  const auto effects = known_effects();
+  const auto rounding_of = [&](const std::string& id) {
+    const auto effect = std::ranges::find(effects, id, &Effect::id);
+    return effect == effects.end() || effect->belief_key.empty()
+               ? rounding.end()
+               : std::ranges::find(rounding, effect->belief_key, &KeySpread::key);
+  };
+  return std::ranges::any_of(d.effects, [&](const FoundEffect& found) {
+    if (const auto own = rounding_of(found.id); own != rounding.end()) {
+      const auto change = std::ranges::find_if(found.parameters, &FoundParameter::is_change);
+      if (change != found.parameters.end() && std::abs(change->value) <= std::sqrt(3.0) * own->sd)
+        return true;
+    }
+    return std::ranges::any_of(found.indistinguishable_from,
+                               [&](const std::string& id) { return rounding_of(id) != rounding.end(); });
+  });
+}
+
 bool has_unknown(const Diagnosis& d) { return std::ranges::any_of(d.effects, &FoundEffect::is_unknown); }
 
 void note_rounding(const std::vector<KeySpread>& rounding, Diagnosis& diagnosis) {
@@ -61,10 +82,10 @@ Diagnosis diagnose_as_written(const Recordings& recordings, const EngineOptions&
   if (exact.effects.empty() || !exact.stopped_in.empty() || recordings.plant == PlantKind::hopper)
     return exact;
   const auto shown = that_show(rounding, exact);
-  if (shown.empty()) return exact;
+  if (shown.empty() || !may_be_rounding(shown, exact)) return exact;
   EngineOptions again = options;
   again.first_verdict = [](const std::string&) {};
-  again.progress = [&](double, const char*) { options.progress(1.0, "again, with rounded numbers"); };
+  again.progress = [&](double share, const char*) { options.progress(share, "again, with rounded numbers"); };
   auto rounded = diagnose(known_to(recordings, shown), again);
   const bool is_worse = (has_unknown(rounded) && !has_unknown(exact)) || !within_half_a_digit(shown, rounded);
   if (!rounded.stopped_in.empty() || is_worse || rounded.effects.size() >= exact.effects.size()) return exact;
