@@ -45,8 +45,7 @@ void ProfileSolver::take_responses(const ProfileSums& sums, const Information& i
     response[kScale] += sum(F::motor);
     response[kIntercept] += prior_.believed_stiffness_N_per_m * sum(F::intercept);
     response[kSteadyDrag] += sum(F::steady_drag);
-    const double friction = sum(F::friction) / info.friction_normal,
-                 depth = slope_N_per_m_[s] * sum(F::one);
+    const double friction = sum(F::friction) / info.friction_normal, depth = slope_N_per_m_[s] * sum(F::one);
     for (std::size_t i = 0; i < kTerms; ++i)
       response[i] += depth * begins_of_[i] - friction * info.with_friction[i];
   }

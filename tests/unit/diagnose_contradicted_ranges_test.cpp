@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "diagnose_campaigns.hpp"
+#include "tests/unit/diagnose_campaigns.hpp"
 #include "tools/diagnose/recordings/contradicted_ranges.hpp"
 
 namespace sandhopper::diagnose {
