@@ -58,25 +58,6 @@ std::optional<FreeGain> in_place_of_small_faults(const Problem& problem, const S
 
 }  // namespace
 
-namespace {
-
-// That something unknown acts is shown by `found`; which law it is, the evidence says.
-FreeGain likeliest_of(const std::vector<FreeGain>& beside, const FreeGain& found, Problem& problem,
-                      const Search& search, std::vector<std::string>& log) {
-  const auto likely = likeliest_law(problem, search);
-  if (!likely || likely->beside_nothing) return found;
-  const auto law = first_of(beside, [&](const FreeGain& gain) {
-    return gain.family.port == likely->family.port && gain.family.variable == likely->family.variable &&
-           is_likely_law(gain);
-  });
-  if (law)
-    log.push_back(fmt::format("most probable law beside the best set: at {} of {}", law->family.port,
-                              law->family.variable));
-  return law.value_or(found);
-}
-
-}  // namespace
-
 const std::optional<FreeGain>& BalanceLaw::operator()() {
   if (!asked_) law_ = law_of_balances(*problem_, *recordings_);
   asked_ = true;
@@ -116,7 +97,6 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
   if (problem.trials.size() >= kTooFewTrials)
     out.law =
         first_of(beside, [&](const FreeGain& gain) { return is_more(gain) && is_law_beside(gain, rows); });
-  if (out.law) out.law = likeliest_of(beside, *out.law, problem, search, log);
   const bool by_balance = (out.misfit.noticeable || noise_over_sensors(problem) > kQuietChannel) && balance();
   if (by_balance) {
     out.law = balance();
