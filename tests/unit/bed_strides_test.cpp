@@ -137,7 +137,7 @@ TEST(BedTrial, StridesInTheCraterGiveItsReloadingLine) {
 // The accelerometer feels the blow before the motors reply. Half of the expected mean time leaves -0.06 ms,
 // twice of it 0.2 ms.
 TEST(BedScore, NothingRemainsOfTheMeanTimeAtContact) {
-  const auto scores = score_beds({.cycle = {}, .world = {}, .beds = {"line"}, .trials = 100});
+  const auto scores = score_beds({.cycle = {}, .world = {}, .beds = {"line"}, .trials = 300});
   ASSERT_EQ(scores.size(), 1u);
   EXPECT_NEAR(scores[0].contact_time.remaining_s(), 0.0, 0.00005);
 }
