@@ -42,6 +42,16 @@ TEST(CampaignImport, AGermanTraceBelowItsFactsIsRead) {
     EXPECT_THAT(draft.campaign_toml, HasSubstr(line));
 }
 
+std::string rows(const std::string& header, int columns);
+
+TEST(CampaignImport, ASpeedBehindASlashIsNoSecondTime) {
+  const auto draft = drafted(rows("Time/s;Angle/rad;AngVel/rad/s", 3));
+  EXPECT_EQ(draft.plant, CampaignPlant::rotary_axis);
+  EXPECT_THAT(draft.campaign_toml,
+              HasSubstr("velocity_radps = { column = \"AngVel/rad/s\", unit = \"rad/s\" }"));
+  EXPECT_THAT(fmt::format("{}", fmt::join(draft.said, "\n")), Not(HasSubstr("fits as well")));
+}
+
 std::string rows(const std::string& header, int columns) {
   std::string text = header + "\n";
   for (int i = 0; i < 20; ++i)
@@ -108,6 +118,28 @@ TEST(CampaignImport, ATimeAndAHeightAloneAreAFallingBody) {
     EXPECT_THAT(error.seen,
                 Contains("falling_body fits if \"y\" is its height_m: then give --plant falling_body"));
   }
+}
+
+// `header` has the ticks of a clock first and a time in its third column.
+std::string flight(const std::string& header) {
+  std::string text = header + "\n";
+  for (int i = 0; i < 20; ++i)
+    text += fmt::format("{},{},{:.2f},{:.3f},{:.2f}\n", 410290 + 60 * i + i % 3, 14368 + 2 * i + i % 2,
+                        0.06 * i, 4.0 * i - 0.02 * i * i, 70.0 - 0.6 * i);
+  return text;
+}
+
+TEST(CampaignImport, AHeightBesideItsSpeedIsAFallingBody) {
+  const auto draft = drafted(flight("useless,time(not s),time aprox (s),z (m),v (m/s)"));
+  EXPECT_EQ(draft.plant, CampaignPlant::falling_body);
+  EXPECT_THAT(said(draft), HasSubstr("a time, a height (\"z (m)\") and a speed alone fit no other plant"));
+  EXPECT_THAT(draft.campaign_toml, HasSubstr("t_s = { column = \"time aprox (s)\", unit = \"s\" }"));
+  EXPECT_THAT(draft.campaign_toml, HasSubstr("height_m = { column = \"z (m)\", unit = \"m\" }"));
+  EXPECT_THROW(drafted(flight("useless,time(not s),time (s),x (m),v (m/s)")), PlantNotTold) << "a stage";
+  EXPECT_THROW(drafted(flight("useless,time(not s),time (s),z (m),x (m)")), PlantNotTold) << "two axes";
+  const auto first =
+      drafted(flight("tick,time,reaction_time (s),z (m),v (m/s)"), CampaignPlant::falling_body);
+  EXPECT_THAT(first.campaign_toml, HasSubstr("t_s = { column = \"time\", unit = \"?\" }"));
 }
 
 TEST(CampaignImport, ASetPointIsNoMeasurement) {

@@ -24,6 +24,14 @@ std::vector<ForeignCondition> conditions_of_clocks() {
                                   1.5 * r.depth_mm);
              }),
        intruder, false},
+      {.id = "a counter that is called a time",
+       .text = plate("time(not s),Time (s),Force (N),Depth (mm)",
+                     [](auto r) {
+                       return fmt::format("{},{:.2f},{:.3f},{:.3f}", 14368 + 2 * r.i + r.i * r.i / 40, r.t_s,
+                                          r.force_N, r.depth_mm);
+                     }),
+       .plant = intruder,
+       .is_usable = true},
       {"two columns of times with one name",
        plate("Time,Force (N),Time,Depth (mm)",
              [](auto r) {

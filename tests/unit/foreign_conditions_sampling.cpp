@@ -53,6 +53,15 @@ std::vector<ForeignCondition> conditions_of_sampling() {
            },
            180),
        intruder, true},
+      {.id = "a height that the logger held for a while",
+       .text = drop("time (s),z (m)",
+                    [](int i) {
+                      const double t_s = 0.005 * (i % 5 < 2 ? i - i % 5 : i - i % 5 + 2);
+                      return 2.0 - 4.905 * t_s * t_s;
+                    }),
+       .plant = falling_body,
+       .is_usable = true,
+       .is_as_written = true},
   };
 }
 

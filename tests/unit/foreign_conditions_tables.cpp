@@ -128,6 +128,13 @@ std::vector<ForeignCondition> conditions_of_units() {
                                  21 * 9.549297 * r.speed_radps);
             }),
        rotary_axis, false},
+      {"a unit with a slash behind a slash",
+       axis("Time/s,Angle/rad,AngVel/rad/s,Torque/N m",
+            [](auto r) {
+              return fmt::format("{:.3f},{:.6f},{:.6f},{:.5f}", r.t_s, r.angle_rad, r.speed_radps,
+                                 r.torque_Nm);
+            }),
+       rotary_axis, true},
       {"a unit that nobody knows", plate("Time (s),Force (N),Depth (div)", in_mm), intruder, false},
       {"mil",
        plate(

@@ -193,6 +193,29 @@ TEST(SampleLimits, ASecondColumnOfTimesMayDriftByOnePercent) {
                   .recording.usable());
 }
 
+// A plate that sinks evenly, with a second column that counts 1, 1.5, 1, 1.5 … times `count` a row.
+Told with_counter(const std::string& time, const std::string& other, double count) {
+  std::string text = fmt::format("{},{},Force (N),Depth (mm)\n", time, other);
+  double sum = 500.0;
+  for (int i = 0; i < 200; ++i, sum += i % 40 < 20 ? count : 1.5 * count)
+    text += fmt::format("{:.3f},{:.4f},{:.4f},{:.3f}\n", 0.01 * i, sum, 0.3 * i, 0.2 * i);
+  return read_campaign(
+      fmt::format("plant = \"intruder\"\n[columns]\nt_s = {{ column = \"{}\", unit = \"s\" }}\n"
+                  "force_N = \"Force (N)\"\nfoot_z_m = {{ column = \"Depth (mm)\", unit = "
+                  "\"mm\", scale = -0.001 }}\n",
+                  time),
+      text);
+}
+
+TEST(SampleLimits, ACounterThatIsCalledATimeIsNoOtherClock) {
+  const auto counter = with_counter("time aprox (s)", "time(not s)", 2.0);
+  EXPECT_TRUE(counter.recording.usable()) << counter.text;
+  EXPECT_THAT(counter.text, HasSubstr("time(not s): is called a time, states no unit"));
+  EXPECT_FALSE(with_counter("time (s)", "time2 [ms]", 9.0).recording.usable()) << "the note's advice";
+  EXPECT_FALSE(with_counter("time1", "time2", 0.01).recording.usable()) << "both in the same unit";
+  EXPECT_TRUE(with_counter("time1", "time2", 2.0).recording.usable());
+}
+
 // The way out that the message names.
 TEST(SampleLimits, EachSensorIsReadWithItsOwnTimes) {
   CampaignFolder folder;

@@ -59,6 +59,34 @@ TEST(UnitForms, AFactorOrAnUnknownWordIsAnUnknownUnit) {
   }
 }
 
+// DIN 1313 writes a quantity divided by its unit: v/(m/s).
+TEST(UnitForms, TheLongestUnitBehindASlashIsRead) {
+  for (const auto& [name, dimension, to_si] :
+       {std::tuple{"AngVel/rad/s", "angular rate", 1.0}, std::tuple{"ANGVEL/RAD/S", "angular rate", 1.0},
+        std::tuple{"omega/rad s^-1", "angular rate", 1.0},
+        std::tuple{"omega / (deg/s)", "angular rate", kDegree},
+        std::tuple{"omega_rad/s", "angular rate", 1.0},
+        std::tuple{"Drehzahl/1/min", "angular rate", 6 * kDegree}, std::tuple{"v/(m/s)", "speed", 1.0},
+        std::tuple{"v/m/s", "speed", 1.0}, std::tuple{"speed mm/s", "speed", 1e-3},
+        std::tuple{"a/m/s^2", "acceleration", 1.0}, std::tuple{"a/m s^-2", "acceleration", 1.0},
+        std::tuple{"Druck/kN/m²", "pressure", 1e3}, std::tuple{"F/kN", "force", 1e3},
+        std::tuple{"M/N m", "torque", 1.0}, std::tuple{"Sensor A/N", "force", 1.0},
+        std::tuple{"joint/position/m", "length", 1.0}, std::tuple{"Time/s", "time", 1.0}}) {
+    const auto unit = unit_in_name(name);
+    ASSERT_TRUE(unit) << name;
+    EXPECT_EQ(unit->dimension, dimension) << name << ": " << unit->text;
+    EXPECT_NEAR(unit->to_si / to_si, 1.0, 1e-6) << name;
+  }
+}
+
+TEST(UnitForms, AQuotientThatIsNotListedIsNoneOfItsParts) {
+  for (const auto* name : {"c/N/m", "stiffness kN/m", "alpha/rad/s^3", "jerk_m/s^3", "f/1/s"}) {
+    const auto unit = unit_in_name(name);
+    ASSERT_TRUE(unit) << name;
+    EXPECT_EQ(unit->dimension, "") << name << ": " << unit->text;
+  }
+}
+
 TEST(UnitForms, RemarksAndLabelsAreNoUnits) {
   for (const auto* name : {"Force (left)", "Force (raw data)", "Load cell (500 N)", "Sensor x1", "Force/2",
                            "ch (1)", "Force (vertical)", "position", "torque", "height", "Load cell 10",
@@ -81,6 +109,22 @@ TEST(UnitForms, AUnitAloneDoesNotSettleAFactor) {
   EXPECT_EQ(verdict("Force (N, x1000)", "N", 1.0).problem, "");
   EXPECT_EQ(verdict("Force (corr)", "N", {}).problem, "");
   EXPECT_EQ(verdict("Force (corr)", "kN", {}).scale, 1e3);
+}
+
+TEST(UnitForms, AUnitWithASlashMayBeStatedAsTheNameHasIt) {
+  const auto verdict = [](const char* name, const char* unit) {
+    return check_unit({.column = name,
+                       .channel = "velocity_radps",
+                       .row_unit = "",
+                       .stated_unit = unit,
+                       .scale = 1.0,
+                       .has_scale = false,
+                       .largest = 5.0});
+  };
+  EXPECT_EQ(verdict("AngVel/rad/s", "rad/s").problem, "");
+  EXPECT_EQ(verdict("AngVel/deg/s", "deg/s").scale, kDegree);
+  EXPECT_NE(verdict("AngVel/deg/s", "rad/s").problem, "");
+  EXPECT_NE(verdict("Duration/s", "rad/s").problem, "");
 }
 
 }  // namespace

@@ -114,6 +114,17 @@ void check_other_clocks(TrialRecording& recording, const CsvTable& table, std::s
       apart_s = std::max(apart_s, std::abs(scale * (other[i] - other.front()) - (t[i] - t.front())));
     if (apart_s <= usual_s || apart_s <= kDrift * span_s) continue;
     const auto* own = places.column_of("t_s");
+    const double own_power = own == nullptr ? 0.0 : std::round(std::log10(std::abs(own->scale)));
+    if (!written && (unit_of_column(table, time_column) || power != own_power)) {
+      add_implausible(recording, places, FindingSeverity::note, table.names[rival],
+                      fmt::format("is called a time, states no unit and does not go with the column of t_s "
+                                  "(taken in {:g} s, {:.3g} s apart): taken for a counter and not used",
+                                  scale, apart_s),
+                      fmt::format("if it is the clock of another sensor, write its unit behind the name, as "
+                                  "in {}, and a check says how to read it",
+                                  toml_text(table.names[rival] + " [ms]")));
+      continue;
+    }
     const UsedColumn second{.channel = "t_s",
                             .column = table.names[rival],
                             .unit = written ? written->text : "s",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "firmware/log/csv_import.hpp"
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/implausible.hpp"
 #include "tools/campaign/unit_ratios.hpp"
@@ -82,18 +83,53 @@ class FallChecker {
     constexpr double kThrow_mps = 15.0, kStated = 1.5;  // A stated release speed may be a third too small.
     const double release_mps = std::abs(trial_.number("release_speed_mps").value_or(0.0));
     const double start_mps = std::max(kThrow_mps, kStated * release_mps);
+    const auto is_too_fast = [&](const Sample& from, const Sample& to) {
+      const double t = to.t_s - from.t_s + unknown_age_s();
+      return std::abs(to.height_m - from.height_m) >
+             start_mps * t + std::max(belief_.gravity_mps2, 10.0) * t * t;
+    };
     const auto& first = all_.front();
     for (const auto& sample : all_) {
       const double t = sample.t_s - first.t_s, way = std::abs(sample.height_m - first.height_m);
-      if (t < 0.05 || way <= start_mps * t + std::max(belief_.gravity_mps2, 10.0) * t * t) continue;
+      if (t < 0.05 || !is_too_fast(first, sample)) continue;
       const auto limit = start_mps > kThrow_mps
                              ? fmt::format("1.5 times the stated release speed of {:.3g} m/s", release_mps)
-                             : "a throw of 15 m/s";
-      add(fmt::format("changes by {:.4g} m within {:.3g} s, faster than {} and a fall", way, t, limit),
-          speed_cure());
+                             : "a throw of 15 m/s (no larger release_speed_mps is stated)";
+      const auto what =
+          fmt::format("changes by {:.4g} m within {:.3g} s, faster than {} and a fall", way, t, limit);
+      if (const auto held = most_behind_repeats(is_too_fast); !held.empty())
+        add(what + held,
+            "leave the cell empty where there is no new sample, also in the first row if it repeats the one "
+            "before it");
+      else
+        add(what, speed_cure());
       return true;
     }
     return false;
+  }
+
+  // check_held_heights has emptied the repeats of held samples. Each that is left was taken at any time since
+  // the row before it, so two may lie one row further apart than their times.
+  double unknown_age_s() const {
+    const bool is_held = std::ranges::any_of(recording_.findings, [](const Finding& f) {
+      return f.kind == FindingKind::held_samples && f.channel == kHeight;
+    });
+    return is_held ? median_step_s(recording_.t_s) : 0.0;
+  }
+
+  // Words for held samples if more than half of the steps that are too fast from row to row follow on a row
+  // that repeats the one before. A wrong unit makes all steps too fast.
+  template <typename IsTooFast>
+  std::string most_behind_repeats(const IsTooFast& is_too_fast) const {
+    std::size_t jumps = 0, behind = 0;
+    for (std::size_t i = 1; i < all_.size(); ++i) {
+      if (!is_too_fast(all_[i - 1], all_[i])) continue;
+      ++jumps;
+      behind += i > 1 && all_[i - 1].height_m == all_[i - 2].height_m;
+    }
+    if (2 * behind <= jumps) return "";
+    return fmt::format("; {} of {} such steps follow on a row that repeats the height before: held samples",
+                       behind, jumps);
   }
 
   // The first part of the way that is a parabola: what follows may be a landing or a liquid. Offer only units

@@ -13,22 +13,6 @@
 namespace sandhopper {
 namespace {
 
-// The last decimal digit with which a column was written, in the channel's unit.
-double written_digit(const std::vector<double>& values, const UsedColumn* column) {
-  constexpr int kMostDecimals = 9;  // more are those of a double, not of a sensor
-  const double scale = column == nullptr ? 1.0 : column->scale,
-               offset = column == nullptr ? 0.0 : column->offset;
-  double unit = 1.0;
-  for (int decimals = 0; decimals < kMostDecimals; ++decimals, unit *= 10.0) {
-    const bool all = std::ranges::all_of(values, [&](double value) {
-      const double written = unit * (value - offset) / scale;
-      return std::abs(written - std::round(written)) < 1e-6 + 1e-9 * std::abs(written);
-    });
-    if (all) break;
-  }
-  return std::abs(scale) / unit;
-}
-
 // Rows of a channel that have a sample.
 struct GridSamples {
   GridSamples(const std::vector<double>& channel, const UsedColumn* column) {
@@ -132,6 +116,22 @@ std::vector<bool> rows_to_keep(const std::vector<std::size_t>& knots, std::size_
 }
 
 }  // namespace
+
+double written_digit(const std::vector<double>& values, const UsedColumn* column) {
+  constexpr int kMostDecimals = 9;  // more are those of a double, not of a sensor
+  const double scale = column == nullptr ? 1.0 : column->scale,
+               offset = column == nullptr ? 0.0 : column->offset;
+  double unit = 1.0;
+  for (int decimals = 0; decimals < kMostDecimals; ++decimals, unit *= 10.0) {
+    const bool all = std::ranges::all_of(values, [&](double value) {
+      if (std::isnan(value)) return true;
+      const double written = unit * (value - offset) / scale;
+      return std::abs(written - std::round(written)) < 1e-6 + 1e-9 * std::abs(written);
+    });
+    if (all) break;
+  }
+  return std::abs(scale) / unit;
+}
 
 void check_interpolated(TrialRecording& recording, const RecordingPlaces& places) {
   if (!recording.has_time) return;

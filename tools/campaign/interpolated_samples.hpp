@@ -10,4 +10,7 @@ namespace sandhopper {
 // low pass) leaves no such trace and is not seen.
 void check_interpolated(TrialRecording& recording, const RecordingPlaces& places);
 
+// The last decimal digit with which a column was written, in the channel's unit. Empty cells (NaN) have none.
+double written_digit(const std::vector<double>& values, const UsedColumn* column);
+
 }  // namespace sandhopper

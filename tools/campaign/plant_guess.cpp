@@ -66,19 +66,35 @@ bool is_counter(const std::vector<double>& values) {
   return step > 0.0;
 }
 
-// The only column besides times and counters, as a channel of a falling body.
-std::optional<ColumnGuess> lone_motion(const CsvTable& table) {
+// True for the ticks of a clock: whole numbers that never fall.
+bool are_ticks(const std::vector<double>& values) {
+  const bool whole = std::ranges::all_of(values, [](double value) { return std::floor(value) == value; });
+  return whole && std::ranges::is_sorted(values) && !values.empty() && values.front() < values.back();
+}
+
+// A motion along one axis, without any other quantity: a height or an acceleration, perhaps beside a speed.
+struct LoneMotion {
+  ColumnGuess guess;
+  bool has_speed = false;
+};
+
+// The only column besides times, counters and one speed, as a channel of a falling body.
+std::optional<LoneMotion> lone_motion(const CsvTable& table) {
   const auto time = time_like_column(table, falling_body);
-  std::optional<std::size_t> lone;
+  std::optional<std::size_t> lone, speed;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     if (time == i || is_called_time(table.names[i]) || is_counter(table.columns[i])) continue;
-    if (lone) return std::nullopt;
-    lone = i;
+    const auto unit = unit_of_column(table, i);
+    if (!unit && are_ticks(table.columns[i])) continue;
+    auto& taken = unit && unit->dimension == "speed" ? speed : lone;
+    if (taken) return std::nullopt;
+    taken = i;
   }
   if (!time || !lone || is_setpoint_by_name(table.names[*lone])) return std::nullopt;
   auto guess = guess_column(table.names[*lone], unit_of_column(table, *lone), falling_body, {});
-  if (guess) guess->column = *lone;
-  return guess;
+  if (!guess) return std::nullopt;
+  guess->column = *lone;
+  return LoneMotion{*guess, speed.has_value()};
 }
 
 // True for a vertical axis: a length or an acceleration along x may be that of a linear stage, and a column
@@ -95,11 +111,13 @@ bool is_vertical_by_name(std::string_view name) {
 }  // namespace
 
 std::string why_falling_body(const CsvTable& table) {
-  const auto guess = lone_motion(table);
-  if (!guess || !guess->unit || !is_vertical_by_name(table.names[guess->column])) return "";
-  return fmt::format("because a time and {} (\"{}\") alone fit no other plant",
-                     guess->channel == "height_m" ? "a height" : "an acceleration",
-                     table.names[guess->column]);
+  const auto motion = lone_motion(table);
+  if (!motion || !motion->guess.unit || !is_vertical_by_name(table.names[motion->guess.column])) return "";
+  const auto name =
+      fmt::format("{} (\"{}\")", motion->guess.channel == "height_m" ? "a height" : "an acceleration",
+                  table.names[motion->guess.column]);
+  return motion->has_speed ? fmt::format("because a time, {} and a speed alone fit no other plant", name)
+                           : fmt::format("because a time and {} alone fit no other plant", name);
 }
 
 std::optional<CampaignPlant> guess_plant(const CsvTable& table) {
@@ -137,9 +155,9 @@ std::vector<std::string> describe_columns(const CsvTable& table) {
   for (std::size_t i = 0; i < kNeeds.size(); ++i)
     lines.push_back(fmt::format("  --plant {:12} {}: {}", EnumNames<CampaignPlant>::value[i],
                                 meaning_of(static_cast<CampaignPlant>(i)), kNeeds[i]));
-  if (const auto guess = lone_motion(table))
+  if (const auto motion = lone_motion(table))
     lines.push_back(fmt::format("falling_body fits if \"{}\" is its {}: then give --plant falling_body",
-                                table.names[guess->column], guess->channel));
+                                table.names[motion->guess.column], motion->guess.channel));
   return lines;
 }
 

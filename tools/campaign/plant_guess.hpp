@@ -12,7 +12,7 @@ namespace sandhopper {
 std::optional<CampaignPlant> guess_plant(const CsvTable& table);
 
 // "because a time and a height ("y_cm") alone fit no other plant" if the table has one height or acceleration
-// besides times and counters of rows, with its unit; else empty.
+// besides times, counters of rows, ticks of a clock and one speed, with its unit; else empty.
 std::string why_falling_body(const CsvTable& table);
 
 // Lines for the user who must name the plant: the line of the names, each column with its unit and first

@@ -16,6 +16,7 @@
 #include "tools/campaign/column_names.hpp"
 #include "tools/campaign/table_issues.hpp"
 #include "tools/campaign/text_checks.hpp"
+#include "tools/campaign/unit_text.hpp"
 #include "tools/campaign/written_unit.hpp"
 
 namespace sandhopper {
@@ -215,7 +216,8 @@ bool is_called_time(std::string_view name) {
   std::string lower(name);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  if (lower == "t" || lower.starts_with("t ") || lower.starts_with("t(") || lower.starts_with("t["))
+  if (lower == "t" || lower.starts_with("t ") || lower.starts_with("t(") || lower.starts_with("t[") ||
+      lower.starts_with("t/"))
     return true;
   constexpr std::array<std::string_view, 10> kBegin{"time", "zeit",      "temps", "tiempo",  "tempo",
                                                     "tijd", "timestamp", "stamp", "elapsed", "uhrzeit"};
@@ -258,16 +260,24 @@ const std::vector<double>* time_column(const CsvTable& table, const CampaignTria
 }
 
 std::optional<std::size_t> time_like_column(const CsvTable& table, CampaignPlant plant) {
-  for (std::size_t i = 0; i < table.names.size(); ++i) {
-    const auto misnamed = misnamed_unit(table.names[i], plant);
-    if (is_called_time(table.names[i]) || (misnamed && misnamed->channel == "t_s")) return i;
-  }
-  // A name in another language, with a unit of time.
-  for (std::size_t i = 0; i < table.names.size(); ++i) {
+  const auto is_in_time = [&](std::size_t i) {
     auto unit = read_unit(table.units[i], true);
     if (!unit) unit = unit_in_name(table.names[i]);
-    if (unit && unit->is_certain && unit->dimension == "time") return i;
+    return unit && unit->is_certain && unit->dimension == "time";
+  };
+  std::optional<std::size_t> called;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    const auto misnamed = misnamed_unit(table.names[i], plant);
+    if (misnamed && misnamed->channel == "t_s" && !called) return i;
+    if (!is_called_time(table.names[i])) continue;
+    // Brackets that hold no unit of time tell what else the column is: "time(not s)" before "time (s)".
+    if (!called) called = i;
+    if (is_in_time(i)) return i == *called || text_in_brackets(table.names[*called]) ? i : *called;
   }
+  if (called) return called;
+  // A name in another language, with a unit of time.
+  for (std::size_t i = 0; i < table.names.size(); ++i)
+    if (is_in_time(i)) return i;
   return std::nullopt;
 }
 

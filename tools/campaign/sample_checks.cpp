@@ -9,6 +9,7 @@
 #include "tools/campaign/force_unit_check.hpp"
 #include "tools/campaign/free_swing_check.hpp"
 #include "tools/campaign/gravity_check.hpp"
+#include "tools/campaign/held_heights.hpp"
 #include "tools/campaign/hopper_check.hpp"
 #include "tools/campaign/interpolated_samples.hpp"
 #include "tools/campaign/lost_forces.hpp"
@@ -28,6 +29,7 @@ namespace sandhopper {
 void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places) {
   check_held_samples(recording, places);
+  check_held_heights(recording, campaign, places);
   check_interpolated(recording, places);
   check_lost_forces(recording, places);
   check_plausible(recording, campaign, trial, places);

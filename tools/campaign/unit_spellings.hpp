@@ -118,6 +118,7 @@ inline constexpr std::array kSpellings{
     Spelling{"m/s\xC2\xB2", "acceleration", 1.0},
     Spelling{"m/s/s", "acceleration", 1.0},
     Spelling{"ms-2", "acceleration", 1.0},
+    Spelling{"ms^-2", "acceleration", 1.0},
     Spelling{"m*s^-2", "acceleration", 1.0},
     Spelling{"mm/s^2", "acceleration", 1e-3},
     Spelling{"mm/s2", "acceleration", 1e-3},

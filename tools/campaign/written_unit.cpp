@@ -125,12 +125,12 @@ std::optional<WrittenUnit> unit_in_any_case(std::string_view text) {
   struct Spoken {
     std::string_view lower, unit;
   };
-  constexpr std::array<Spoken, 21> kSpoken{
-      {{"ms", "ms"},        {"us", "us"},   {"ns", "ns"},   {"sec", "sec"}, {"mm", "mm"},
-       {"cm", "cm"},        {"um", "um"},   {"deg", "deg"}, {"rad", "rad"}, {"rpm", "rpm"},
-       {"erpm", "erpm"},    {"dps", "dps"}, {"nm", "Nm"},   {"kn", "kN"},   {"kg", "kg"},
-       {"lbf", "lbf"},      {"kpa", "kPa"}, {"hz", "Hz"},   {"mps", "m/s"}, {"radps", "rad/s"},
-       {"newton", "newton"}}};
+  constexpr std::array<Spoken, 25> kSpoken{
+      {{"rad/s", "rad/s"}, {"deg/s", "deg/s"}, {"m/s", "m/s"}, {"mm/s", "mm/s"},   {"ms", "ms"},
+       {"us", "us"},       {"ns", "ns"},       {"sec", "sec"}, {"mm", "mm"},       {"cm", "cm"},
+       {"um", "um"},       {"deg", "deg"},     {"rad", "rad"}, {"rpm", "rpm"},     {"erpm", "erpm"},
+       {"dps", "dps"},     {"nm", "Nm"},       {"kn", "kN"},   {"kg", "kg"},       {"lbf", "lbf"},
+       {"kpa", "kPa"},     {"hz", "Hz"},       {"mps", "m/s"}, {"radps", "rad/s"}, {"newton", "newton"}}};
   const auto lower = lower_case(text);
   for (const auto& spoken : kSpoken)
     if (spoken.lower == lower) return known_unit(spoken.unit);
@@ -250,6 +250,40 @@ std::optional<WrittenUnit> unit_without_mark(std::string_view column) {
   return std::nullopt;
 }
 
+// True for units divided by units, a quotient that no list may hold: "N/m", "1/s", "deg/s^2".
+bool is_quotient_of_units(std::string_view text) {
+  std::size_t parts = 0;
+  for (;; ++parts) {
+    const auto end = std::min(text.find('/'), text.size());
+    auto part = trimmed(text.substr(0, end));
+    if (parts > 0)  // a power: "s^2", "m2", "m²"
+      for (const std::string_view power : {"\xC2\xB2", "\xC2\xB3", "2", "3", "^"})
+        if (part.ends_with(power)) part.remove_suffix(power.size());
+    if (!known_unit(part) && (parts > 0 || part != "1")) return false;
+    if (end == text.size()) return parts > 0;
+    text.remove_prefix(end + 1);
+  }
+}
+
+// A unit that itself holds a slash, behind a slash as DIN 1313 writes it or behind another mark:
+// "AngVel/rad/s", "v m/s", "speed_m/s". The longest tail is tried first, because "s" alone is a unit, too. A
+// quotient of units that is not listed is an unknown unit: "c/N/m" is no length. One letter behind a blank or
+// a point may be a label: "Sensor A/N".
+std::optional<WrittenUnit> unit_with_slash(std::string_view column) {
+  const auto last = column.rfind('/');
+  if (last == std::string_view::npos) return std::nullopt;
+  for (std::size_t at = column.find_first_of("/ _.,:|\\", 1); at < last;
+       at = column.find_first_of("/ _.,:|\\", at + 1)) {
+    const auto tail = trimmed(column.substr(at + 1));
+    auto unit = known_unit(tail);
+    if (!unit) unit = unit_in_any_case(tail);
+    if (unit) return unit;
+    const bool may_be_label = (column[at] == ' ' || column[at] == '.') && tail.find('/') < 2;
+    if (!may_be_label && is_quotient_of_units(tail)) return WrittenUnit{std::string(tail), "", 0.0};
+  }
+  return std::nullopt;
+}
+
 WrittenUnit as_acceleration(const WrittenUnit& unit, std::string_view wanted) {
   if ((unit.text != "g" && unit.text != "mg") || wanted != "acceleration") return unit;
   return {unit.text, "acceleration", unit.text == "g" ? 9.80665 : 9.80665e-3};
@@ -287,6 +321,7 @@ std::optional<WrittenUnit> unit_in_name(std::string_view written) {
   if (const auto unit = unit_of_words(column)) return unit;
   if (const auto unit = unit_without_mark(column)) return unit;
   if (const auto factor = factor_behind(column)) return factor;
+  if (const auto unit = unit_with_slash(column)) return unit;
   if (const auto listed = split_unit(column))
     return WrittenUnit{std::string(listed->suffix), std::string(listed->dimension), listed->to_si};
   for (const std::string_view mark :
