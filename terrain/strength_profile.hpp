@@ -289,11 +289,11 @@ class ProfileSolver {
 
   StiffnessConfig config_;
   ProfileConfig prior_;
-  std::array<double, kProfileCells> believed_N_per_m_{};     // mean tangent stiffness of each cell
-  std::array<double, kProfileCells> intercept_N_per_m_{};    // slope of k (1 - exp(-z/dz0))
-  std::array<double, kProfileCells> slope_N_per_m_{};        // tangent stiffness of the previous posterior
-  std::array<double, kProfileCells> noise_factor_{};   // variance of a cell's samples relative to that of
-                                                       // their weights
+  std::array<double, kProfileCells> believed_N_per_m_{};   // mean tangent stiffness of each cell
+  std::array<double, kProfileCells> intercept_N_per_m_{};  // slope of k (1 - exp(-z/dz0))
+  std::array<double, kProfileCells> slope_N_per_m_{};      // tangent stiffness of the previous posterior
+  std::array<double, kProfileCells> noise_factor_{};       // variance of a cell's samples relative to that of
+                                                           // their weights
   std::array<double, kProfileCells> unresolved_N2_{};  // variance that is attributed to the curve within a
                                                        // cell
   std::array<Misfit, kProfileCells> misfit_{}, stride_misfit_{};  // of the previous strides, of this one

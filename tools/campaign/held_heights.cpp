@@ -58,8 +58,11 @@ bool are_of_many_sizes(std::vector<double> steps_m, double digit_m) {
   std::ranges::sort(steps_m);
   std::size_t sizes = 1;
   double size_m = steps_m.front();
-  for (const double step_m : steps_m)
-    if (step_m - size_m > 2.01 * digit_m) size_m = step_m, ++sizes;
+  for (const double step_m : steps_m) {
+    if (step_m - size_m <= 2.01 * digit_m) continue;
+    size_m = step_m;
+    ++sizes;
+  }
   return 2 * sizes > steps_m.size();
 }
 
