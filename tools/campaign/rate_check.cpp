@@ -31,6 +31,7 @@ struct Slope {
   double slope = 0.0, together = 0.0;
 };
 constexpr double kCorrelates = 0.8;
+constexpr double kOneRatio = 0.98;  // of clean data; a sine against its square wave has 8 / pi^2 = 0.81
 
 // Ratios of the units of a position, a speed and a time, and the unit that explains them.
 struct Known {
@@ -81,7 +82,6 @@ class RateChecker {
   // From the rows in which neither stands at an end of its range, where these correlate: a speed that is
   // clipped is no speed in another unit, whose ratio is the same at all speeds.
   std::optional<Slope> slope(std::string_view position, std::string_view speed) const {
-    constexpr double kOneRatio = 0.98;  // of clean data; a sine against its square wave has 8 / pi^2 = 0.81
     const auto x = recording_.channel(position), v = recording_.channel(speed);
     auto ends = stands_at_an_end(v);
     const auto ends_of_position = stands_at_an_end(x);
@@ -136,7 +136,7 @@ class RateChecker {
     const auto* unit = known(found.slope, far ? 0.15 : 0.03);
     // A gain error of a sensor is for the diagnosis; below 5 only the ratio of two units counts, in clean
     // data.
-    if (!far && (unit == nullptr || found.together < 0.98)) return;
+    if (!far && (unit == nullptr || found.together < kOneRatio)) return;
     const auto text =
         fmt::format("is {:.3g} times the rate of {}: one of the two, or the time, is in another unit{}",
                     found.slope, pair.position,
@@ -210,7 +210,8 @@ class RateChecker {
     constexpr double kGainError = 0.1;  // of a speed; another unit of the position is farther from 1
     if (own.slope > 0.0) return false;
     const auto crossed = slope(pair.speed, pair.position);
-    if (!crossed || crossed->together < 0.98 || std::abs(crossed->slope - 1.0) > kGainError) return false;
+    if (!crossed || crossed->together < kOneRatio || std::abs(crossed->slope - 1.0) > kGainError)
+      return false;
     const auto *x = places_.column_of(pair.position), *v = places_.column_of(pair.speed);
     std::string cure = "exchange the two columns in [columns]";
     if (x != nullptr && v != nullptr)
