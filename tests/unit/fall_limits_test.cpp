@@ -109,6 +109,7 @@ TEST(FallLimits, AFallIsAsFastAsItsReleaseIsSaidToBe) {
   const std::string body = "mass_kg = 22.8\ndiameter_m = 0.15\ndensity_kg_per_m3 = 1.0\n";
   const auto unsaid = read_campaign(head(body), text);
   EXPECT_THAT(unsaid.text, HasSubstr("faster than a throw of 15 m/s"));
+  EXPECT_THAT(unsaid.text, HasSubstr("write release_speed_mps = 27 into its [[trial]]"));
   const auto said = read_campaign(head(body + "release_speed_mps = 27.0\n"), text);
   EXPECT_EQ(said.text.find("faster than"), std::string::npos) << said.text;
   const auto too_fast = read_campaign(head(body + "release_speed_mps = 16.0\n"), text);

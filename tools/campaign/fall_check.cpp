@@ -102,7 +102,7 @@ class FallChecker {
             "leave the cell empty where there is no new sample, also in the first row if it repeats the one "
             "before it");
       else
-        add(what, speed_cure());
+        add(what, speed_cure(way / t));
       return true;
     }
     return false;
@@ -134,8 +134,8 @@ class FallChecker {
 
   // The first part of the way that is a parabola: what follows may be a landing or a liquid. Offer only units
   // that make the body slower: a braked body accelerates little, so its ratio to gravity may match a unit by
-  // chance.
-  std::string speed_cure() const {
+  // chance. `start_mps`: its speed, if it is that fast from the first row on.
+  std::string speed_cure(double start_mps) const {
     const auto samples = way();
     for (const std::size_t parts : {1U, 2U, 4U, 8U}) {
       const auto curve = parabola_through(samples.first(samples.size() / parts));
@@ -144,7 +144,11 @@ class FallChecker {
       if (too_large <= 1.0) continue;
       if (const auto unit = unit_behind(too_large)) return unit->cure;
     }
-    return "";
+    return fmt::format(
+        "if the body is that fast from the first row on, write release_speed_mps = {:.3g} into its "
+        "[[trial]]; "
+        "else {}",
+        start_mps, usual_cure());
   }
 
   // A force column that the campaign does not use: what was pushed was recorded with its force.
@@ -259,10 +263,14 @@ class FallChecker {
     return column.unit.empty() ? "an unknown unit" : column.unit;
   }
 
+  std::string usual_cure() const {
+    const auto* column = places_.column_of(kHeight);
+    return column == nullptr ? "correct its scale" : scale_cure(*column);
+  }
+
   void add(std::string what, std::string cure, bool is_error = true) {
     const bool stated = places_.is_stated(kHeight);
-    const auto* column = places_.column_of(kHeight);
-    if (cure.empty()) cure = column == nullptr ? "correct its scale" : scale_cure(*column);
+    if (cure.empty()) cure = usual_cure();
     if (is_error || stated)
       doubt_column(recording_, places_, stated, kHeight, std::move(what), std::move(cure));
     else
