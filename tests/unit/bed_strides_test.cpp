@@ -134,8 +134,8 @@ TEST(BedTrial, StridesInTheCraterGiveItsReloadingLine) {
   EXPECT_GE(trial.strides.size(), 2U);
 }
 
-// The accelerometer feels the blow before the motors reply. Half of the expected mean time leaves -0.1 ms, twice
-// of it 0.25 ms.
+// The accelerometer feels the blow before the motors reply. Half of the expected mean time leaves -0.1 ms,
+// twice of it 0.25 ms.
 TEST(BedScore, NothingRemainsOfTheMeanTimeAtContact) {
   const auto scores = score_beds({.cycle = {}, .world = {}, .beds = {"line"}, .trials = 300});
   ASSERT_EQ(scores.size(), 1u);
