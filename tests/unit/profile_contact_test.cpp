@@ -27,13 +27,13 @@ TEST(ProfileContact, ASlowFootOnSoftGroundIsDeepWhenItIsFound) {
   for (const double stiffness : {1000.0, 3000.0}) {
     const auto depth = contact(stiffness, kSlow_mps);
     EXPECT_NEAR(depth.mean_m, needed_N / stiffness + (kAccelLowPass_s + kPrior.contact_time_s) * kSlow_mps,
-                2e-6);
+                1e-8);
     EXPECT_GT(depth.variance_m2, std::pow(kPrior.contact_force_sd_N / stiffness, 2));
   }
   // A blow of 15 N exceeds the threshold after 8 % of the low-pass's time constant.
   const double blow_N = kCone_kg_per_m * kFast_mps * kFast_mps;
   const double time_s = -kAccelLowPass_s * std::log(1.0 - kThreshold_N / blow_N);
-  EXPECT_NEAR(contact(1000.0, kFast_mps).mean_m, (time_s + kPrior.contact_time_s) * kFast_mps, 1e-6);
+  EXPECT_NEAR(contact(1000.0, kFast_mps).mean_m, (time_s + kPrior.contact_time_s) * kFast_mps, 1e-7);
   EXPECT_LT(kPrior.contact_time_s, 0.0);        // the accelerometer feels the blow before the motors reply
   EXPECT_EQ(contact(1000.0, 0.0).mean_m, 0.0);  // contact was not found by its force
 }

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "firmware/log/csv_import.hpp"
+#include "tools/campaign/equal_runs.hpp"
 
 namespace sandhopper {
 namespace {
@@ -19,16 +20,8 @@ constexpr std::size_t kFewestSamples = 20;
 // Fraction of stuck or saturated samples above which a channel is removed.
 constexpr double kUnusableShare = 0.2;
 
-// Consecutive equal samples (empty rows in between are skipped).
-struct Run {
-  std::size_t first_row;
-  std::size_t last_row;
-  std::size_t samples;
-  double value;
-};
-
 struct Shape {
-  std::vector<Run> runs;
+  std::vector<EqualRun> runs;
   std::size_t samples = 0;
   double low = 0.0, high = 0.0;
   std::size_t usual_hold = 1;  // 90th percentile of the run length.
@@ -36,21 +29,12 @@ struct Shape {
 
 Shape shape_of(const std::vector<double>& values) {
   Shape shape;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    const double value = values[row];
-    if (std::isnan(value)) continue;
-    if (shape.samples == 0) shape.low = shape.high = value;
-    shape.low = std::min(shape.low, value);
-    shape.high = std::max(shape.high, value);
-    ++shape.samples;
-    if (!shape.runs.empty() && shape.runs.back().value == value) {
-      shape.runs.back().last_row = row;
-      ++shape.runs.back().samples;
-    } else {
-      shape.runs.push_back({row, row, 1, value});
-    }
-  }
+  shape.runs = equal_runs(values);
   if (shape.runs.empty()) return shape;
+  const auto [low, high] = std::ranges::minmax(shape.runs, {}, &EqualRun::value);
+  shape.low = low.value;
+  shape.high = high.value;
+  for (const auto& run : shape.runs) shape.samples += run.samples;
   std::vector<std::size_t> lengths;
   lengths.reserve(shape.runs.size());
   for (const auto& run : shape.runs) lengths.push_back(run.samples);
@@ -133,8 +117,9 @@ class Checker {
   // True if the channel must be removed.
   bool is_stuck(std::size_t i, const ChannelTraits& traits) {
     const auto& shape = shapes_[i];
-    const auto longest = std::max_element(shape.runs.begin(), shape.runs.end(),
-                                          [](const Run& a, const Run& b) { return a.samples < b.samples; });
+    const auto longest =
+        std::max_element(shape.runs.begin(), shape.runs.end(),
+                         [](const EqualRun& a, const EqualRun& b) { return a.samples < b.samples; });
     const bool constant = shape.runs.size() == 1;
     const bool long_enough = constant || (longest->samples >= 100 && longest->samples * 10 >= shape.samples &&
                                           longest->samples >= 30 * shape.usual_hold);
@@ -157,11 +142,11 @@ class Checker {
 
   // A failed sensor keeps its value to the end or comes back with a jump. A sensor of low resolution whose
   // quantity rests does neither.
-  bool fails(std::size_t i, const Run& run) const {
+  bool fails(std::size_t i, const EqualRun& run) const {
     constexpr double kJump = 5.0;
     const auto& runs = shapes_[i].runs;
-    const auto at =
-        std::find_if(runs.begin(), runs.end(), [&](const Run& r) { return r.first_row == run.first_row; });
+    const auto at = std::find_if(runs.begin(), runs.end(),
+                                 [&](const EqualRun& r) { return r.first_row == run.first_row; });
     if (at + 1 == runs.end()) return run.samples * 4 >= shapes_[i].samples;
     std::vector<double> steps;
     for (auto next = runs.begin() + 1; next != runs.end(); ++next)
@@ -175,7 +160,7 @@ class Checker {
   // True if other channels move during the run. If the whole robot rests, every channel stays within a small
   // part of its range. For an angle only its averaged speed counts: on an axis that is held still, the speed
   // is noise and the angle stays within one step of the encoder.
-  bool others_move(std::size_t self, const Run& run) const {
+  bool others_move(std::size_t self, const EqualRun& run) const {
     constexpr double kMoves = 0.3;
     const auto part_of = [&](std::size_t i) {
       const auto values = recording_.channels[i].values.begin();
@@ -208,7 +193,7 @@ class Checker {
     if (limit == 0.0 || shape.runs.size() < kFewestSamples) return 0;
     const std::size_t shortest = std::max<std::size_t>(5, 4 * shape.usual_hold);
     std::size_t samples = 0;
-    const Run* first = nullptr;
+    const EqualRun* first = nullptr;
     for (const auto& run : shape.runs) {
       if (run.value != limit || run.samples < shortest || rests(i, run)) continue;
       samples += run.samples;
@@ -227,7 +212,7 @@ class Checker {
   }
 
   // True while the motion itself pauses; at the start or end of the recording also if it only settles.
-  bool rests(std::size_t self, const Run& run) const {
+  bool rests(std::size_t self, const EqualRun& run) const {
     constexpr double kSettles = 0.1;  // of the range of the position
     const auto& shape = shapes_[self];
     const bool at_end =
@@ -237,7 +222,7 @@ class Checker {
 
   // True if the first position channel covers more than `share` of its range during the run. Without one the
   // run counts as motion, but not at the start or end of the recording (share > 0).
-  bool position_covers(double share, std::size_t self, const Run& run) const {
+  bool position_covers(double share, std::size_t self, const EqualRun& run) const {
     for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
       if (i == self) continue;
       const auto* traits = find_channel(plant_, recording_.channels[i].name);

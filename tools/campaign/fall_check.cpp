@@ -146,8 +146,7 @@ class FallChecker {
     }
     return fmt::format(
         "if the body is that fast from the first row on, write release_speed_mps = {:.3g} into its "
-        "[[trial]]; "
-        "else {}",
+        "[[trial]]; else {}",
         start_mps, usual_cure());
   }
 

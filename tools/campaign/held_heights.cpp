@@ -7,43 +7,28 @@
 #include <limits>
 #include <vector>
 
+#include "tools/campaign/equal_runs.hpp"
 #include "tools/campaign/interpolated_samples.hpp"
 #include "tools/campaign/sample_times.hpp"
 
 namespace sandhopper {
 namespace {
 
-// Rows with equal heights, one after the other.
-struct Run {
-  double height_m;
-  std::vector<std::size_t> rows;
-};
-
-std::vector<Run> runs_of(const std::vector<double>& heights_m) {
-  std::vector<Run> runs;
-  for (std::size_t row = 0; row < heights_m.size(); ++row) {
-    if (std::isnan(heights_m[row])) continue;
-    if (runs.empty() || runs.back().height_m != heights_m[row]) runs.push_back({heights_m[row], {}});
-    runs.back().rows.push_back(row);
-  }
-  return runs;
-}
-
 // Repeats between two steps in the same direction.
 struct Held {
-  std::size_t repeats = 0, longest = 1, first_row = 0;
+  std::size_t repeats = 0, longest = 1;
+  std::size_t begins = 0;         // row of the first value that is repeated
   std::vector<double> steps_m{};  // sizes of the steps behind the runs with repeats
 };
 
-Held held_between_steps(const std::vector<Run>& runs) {
+Held held_between_steps(const std::vector<EqualRun>& runs) {
   Held held;
   for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
-    const double before = runs[i].height_m - runs[i - 1].height_m,
-                 after = runs[i + 1].height_m - runs[i].height_m;
-    if (runs[i].rows.size() < 2 || before * after < 0.0) continue;
-    if (held.repeats == 0) held.first_row = runs[i].rows[1];
-    held.repeats += runs[i].rows.size() - 1;
-    held.longest = std::max(held.longest, runs[i].rows.size());
+    const double before = runs[i].value - runs[i - 1].value, after = runs[i + 1].value - runs[i].value;
+    if (runs[i].samples < 2 || before * after < 0.0) continue;
+    if (held.repeats == 0) held.begins = runs[i].first_row;
+    held.repeats += runs[i].samples - 1;
+    held.longest = std::max(held.longest, runs[i].samples);
     held.steps_m.push_back(std::abs(after));
   }
   return held;
@@ -76,21 +61,25 @@ void check_held_heights(TrialRecording& recording, const Campaign& campaign, con
       channel == recording.channels.end())
     return;
   auto& heights_m = channel->values;
-  const auto runs = runs_of(heights_m);
+  const auto runs = equal_runs(heights_m);
   const auto held = held_between_steps(runs);
   if (!are_of_many_sizes(held.steps_m, written_digit(heights_m, places.column_of(kHeight)))) return;
+  std::size_t first_repeat = held.begins + 1;
+  while (std::isnan(heights_m[first_repeat])) ++first_repeat;
   std::size_t samples = 0, emptied = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto& rows = runs[i].rows;
-    const bool is_rest = rows.size() > held.longest;
-    samples += rows.size();
-    for (std::size_t k = i == 0 ? 0 : 1; k < rows.size() && !is_rest; ++k, ++emptied)
-      heights_m[rows[k]] = kNone;
+    const auto& run = runs[i];
+    samples += run.samples;
+    if (run.samples > held.longest) continue;  // a rest
+    for (std::size_t row = i == 0 ? run.first_row : run.first_row + 1; row <= run.last_row; ++row) {
+      emptied += !std::isnan(heights_m[row]);
+      heights_m[row] = kNone;
+    }
   }
   const auto [least, most] = std::ranges::minmax(held.steps_m);
-  const double span_s = recording.t_s[runs.back().rows.back()] - recording.t_s[runs.front().rows.front()];
+  const double span_s = recording.t_s[runs.back().last_row] - recording.t_s[runs.front().first_row];
   recording.findings.push_back(
-      {FindingKind::held_samples, FindingSeverity::note, places.file, places.line_of(held.first_row), 1,
+      {FindingKind::held_samples, FindingSeverity::note, places.file, places.line_of(first_repeat), 1,
        std::string(kHeight),
        fmt::format("repeats the value before in {} of {} rows and then goes on the same way by {:.3g} to "
                    "{:.3g} m, which no body does in the air: held samples, a new one comes every {} on "

@@ -65,10 +65,9 @@ void note_rounding(const std::vector<KeySpread>& rounding, Diagnosis& diagnosis)
     const auto number = std::ranges::find(diagnosis.belief, known.key, &BelievedNumber::key);
     if (number == diagnosis.belief.end()) continue;
     diagnosis.notes.push_back(fmt::format(
-        "{} = {:.6g} is known to the last digit that is written, +-{:.2g}, and that error would show here: "
-        "it "
-        "is taken to be off by {:+.2g}. Write more digits, or under [known_to] how well you know it: "
-        "{} = {:.2g}",
+        "{} = {:.6g} is known to the last digit that is written, +-{:.2g}, and that error would show "
+        "here: it is taken to be off by {:+.2g}. Write more digits, or under [known_to] how well you know "
+        "it: {} = {:.2g}",
         known.key, number->size(), std::sqrt(3.0) * known.sd, number->asked_for, last_key(known.key),
         known.sd));
   }

@@ -89,10 +89,10 @@ bool shows_one_value(const SampledChannel& s) {
 
 // True if noise could not leave so many samples in one step of the grid: each follows its predecessor there
 // with a probability of at most erf(grid / (2 sqrt(2) noise)), that of a step in the middle of the noise.
-bool noise_is_missing(double at_end, double in_a_row, double noise, double grid) {
-  if (!(noise > 0.0)) return false;
+bool noise_is_missing(double at_end, std::size_t in_a_row, double noise, double grid) {
+  if (!(noise > 0.0) || in_a_row == 0) return false;
   const boost::math::binomial repeats(at_end, boost::math::erf(grid / (2.0 * std::sqrt(2.0) * noise)));
-  return boost::math::cdf(boost::math::complement(repeats, in_a_row - 1.0)) < kBeyondDoubt;
+  return boost::math::cdf(boost::math::complement(repeats, static_cast<double>(in_a_row - 1))) < kBeyondDoubt;
 }
 
 // The largest or smallest value of the channel, if samples pile up there; the one of larger magnitude if they
@@ -115,9 +115,7 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
     // Without a limit the end value is not more frequent than the four grid steps next to it.
     if (at_end < static_cast<double>(kLeast) || at_end < 3.0 * (next + 1.0)) continue;
     if (at_end < kPileUp * total && in_a_row < kInARow) continue;
-    if (noise < kGridSteps * grid &&
-        !(in_a_row > 0 && noise_is_missing(at_end, static_cast<double>(in_a_row), noise, grid)))
-      continue;
+    if (noise < kGridSteps * grid && !noise_is_missing(at_end, in_a_row, noise, grid)) continue;
     if (limit != 0.0 && std::abs(end) < std::abs(limit)) continue;
     limit = end;
   }
