@@ -124,8 +124,7 @@ TEST(StatedUnit, AUnitInTheFileThatIsOverruledIsNoted) {
   const auto told = read_push(", unit = \"N\", scale = 1.0", push(1.0, "F (kN)"), 4000.0, "F (kN)");
   EXPECT_TRUE(told.recording.usable());
   EXPECT_THAT(told.text, HasSubstr("its name says \"kN\", and [columns] overrules it"));
-  for (const auto* sound :
-       {", unit = \"kN\", scale = 1000", ", unit = \"kN\", scale = 1050"})
+  for (const auto* sound : {", unit = \"kN\", scale = 1000", ", unit = \"kN\", scale = 1050"})
     EXPECT_THAT(read_push(sound, push(1e-3, "F (kN)"), 4000.0, "F (kN)").text, IsEmpty()) << sound;
 }
 
