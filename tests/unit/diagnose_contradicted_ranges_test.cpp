@@ -34,5 +34,23 @@ TEST(DiagnoseContradictedRanges, ARangeHoldsUnlessTheRecordingGoesClearlyPastIt)
   EXPECT_GT(range_after(1.0, 0.02), 0.0);
 }
 
+// A range that is stated to three digits may be a thousandth too small.
+TEST(DiagnoseContradictedRanges, ARangeMayBeRoundedByAThousandth) {
+  const auto holds = [](double beyond) {
+    Recordings recordings;
+    recordings.belief.numbers["sensors.position_range_rad"] = 1.0;
+    Trial trial;
+    for (int i = 0; i < 200; ++i) {
+      trial.time_s.push_back(0.01 * i);
+      trial.channels["position_rad"].push_back((1.0 + beyond) * i / 199.0);
+    }
+    recordings.trials = {trial};
+    recordings.beliefs = {recordings.belief};
+    return drop_contradicted_ranges(recordings).empty();
+  };
+  EXPECT_TRUE(holds(7e-4));
+  EXPECT_FALSE(holds(1.5e-3));
+}
+
 }  // namespace
 }  // namespace sandhopper::diagnose

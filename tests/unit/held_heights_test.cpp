@@ -69,6 +69,29 @@ TEST(HeldHeights, ARestBeforeTheMotionStays) {
   EXPECT_FALSE(std::isnan(rests.recording.channel("height_m")[5]));
 }
 
+// Every second row repeats the one before; `holds` of them, and steps of `sizes` different lengths.
+Told held_often(int holds, int sizes, double size_m) {
+  std::string text = "time (s),z (m)\n";
+  double height_m = 500.0;
+  for (int i = 0; i < 40; ++i) {
+    const bool repeats = i % 2 == 1 && i / 2 < holds;
+    if (!repeats) height_m -= 1.0 + size_m * (i / 2 % sizes);
+    text += fmt::format("{:.2f},{:.3f}\n", 0.06 * i, height_m);
+  }
+  return coast_of(text, 80.0);
+}
+
+TEST(HeldHeights, EightHoldsAreEnoughAndSevenAreNot) {
+  EXPECT_THAT(held_often(9, 20, 0.023).text, HasSubstr("held samples"));
+  EXPECT_THAT(held_often(8, 20, 0.023).text, Not(HasSubstr("held samples")));
+}
+
+// Of two rounded differences each is off by a digit at most.
+TEST(HeldHeights, StepsAreOfManySizesIfTheyDifferByMoreThanTwoDigits) {
+  EXPECT_THAT(held_often(20, 20, 0.003).text, HasSubstr("held samples"));
+  EXPECT_THAT(held_often(20, 20, 0.002).text, Not(HasSubstr("held samples")));
+}
+
 // A window of 16 rows has too few held rows for check_held_heights; the cure is that of the message.
 TEST(HeldHeights, AFewHeldRowsAreToldAsTheCauseAndTheCureIsRead) {
   const auto window = [](bool is_cured) {

@@ -58,6 +58,44 @@ TEST(RestBeforeFall, AFewFramesOfRestAreFoundToTheFrame) {
     }
 }
 
+// A rest that four standard errors show is found, and two would find rests where there is none.
+TEST(RestBeforeFall, ARestIsToldFromNoiseByFourStandardErrors) {
+  const auto found_in = [](int rows_of_rest, double noise_m) {
+    int found = 0;
+    for (unsigned seed = 0; seed < 400; ++seed) {
+      std::mt19937 random(seed);
+      std::normal_distribution<double> noise(0.0, noise_m);
+      Video video;
+      for (int i = 0; i < rows_of_rest + 80; ++i) {
+        const double falls_s = std::max(0, i - rows_of_rest) * kRow_s;
+        video.t_s.push_back(i * kRow_s);
+        video.height_m.push_back(2.4 - 4.905 * falls_s * falls_s + noise(random));
+      }
+      found += rest_before_fall_s(video.t_s, video.height_m).has_value();
+    }
+    return found;
+  };
+  EXPECT_EQ(found_in(0, 0.03), 0);
+  EXPECT_GT(found_in(3, 0.01), 380);
+}
+
+// From fewer than ten rows of the first half of the way nothing is said.
+TEST(RestBeforeFall, TenRowsOfTheFirstHalfAreEnoughAndNineAreNot) {
+  const auto is_found = [](int rows) {
+    Video video;
+    for (int i = 0; i < rows; ++i) {
+      const double falls_s = std::max(0, i - 3) * kRow_s;
+      video.t_s.push_back(i * kRow_s);
+      video.height_m.push_back(2.0 - 4.905 * falls_s * falls_s);
+    }
+    video.t_s.push_back(rows * kRow_s);  // the lowest height; the rows before are its first half
+    video.height_m.push_back(2.0 - 2.2 * (2.0 - video.height_m.back()));
+    return rest_before_fall_s(video.t_s, video.height_m).has_value();
+  };
+  EXPECT_FALSE(is_found(9));
+  EXPECT_TRUE(is_found(10));
+}
+
 TEST(RestBeforeFall, AFallFromTheFirstRowOnHasNone) {
   for (unsigned seed = 1; seed < 30; ++seed)
     for (const double drag_per_m : {0.0, 0.1, 2.0}) {

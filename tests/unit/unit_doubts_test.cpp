@@ -72,6 +72,22 @@ TEST(FreeSwing, TheStatedReleaseTellsTheUnitOfASmallSwing) {
   EXPECT_THAT(twice.text, HasSubstr("times that; taken as stated"));
 }
 
+// 4.2 rad to either side and back are 8.4 rad, more than one turn and less than two.
+TEST(FreeSwing, MoreThanOneTurnAndBackIsDoubted) {
+  EXPECT_THAT(read_swing("", "", swing(4.2 / 0.349)).text, HasSubstr("more than one turn"));
+}
+
+// The first angle may be off by a fifth: the zero, and rows that are cut.
+TEST(FreeSwing, AFirstAngleWithinAFifthOfTheReleaseInDegreesIsTakenForIt) {
+  const auto told = [](double share) {  // 2.8 degrees were released, and the angle is scaled twice
+    return read_swing(", unit = \"rad\", scale = 1.0",
+                      fmt::format("release_position_rad = {}\n", 0.0489 * 57.29578 / share), swing(0.14))
+        .text;
+  };
+  EXPECT_THAT(told(1.15), HasSubstr("times that"));
+  EXPECT_THAT(told(1.30), Not(HasSubstr("times that")));
+}
+
 TEST(FreeSwing, WhatMayTurnSeveralTimesIsNotDoubted) {
   const auto degrees = swing(57.29578);
   EXPECT_THAT(read_swing("", "", degrees, "").text, IsEmpty()) << "a balanced wheel";
@@ -118,6 +134,12 @@ TEST(ForceUnit, KilonewtonsTakenForNewtonsAreToldByTheStiffnessOrTheGrains) {
   }
   EXPECT_THAT(read_push("", push(1.0), 800.0).text, IsEmpty()) << "a bed five times as stiff as believed";
   EXPECT_THAT(read_push(", unit = \"N\"", push(1.0), 4.0).text, HasSubstr("N/mm?"));
+}
+
+// The limit is the geometric mean of N and kN: a factor of 31.6.
+TEST(ForceUnit, AStiffnessIsDoubtedFromAThirtyfoldErrorOn) {
+  EXPECT_THAT(read_push("", push(1.0), 4000.0 * 25.0).text, IsEmpty());
+  EXPECT_THAT(read_push("", push(1.0), 4000.0 * 45.0).text, HasSubstr("at a depth of"));
 }
 
 TEST(StatedUnit, AUnitInTheFileThatIsOverruledIsNoted) {
