@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "drivers/imu/imu_config.hpp"
 #include "terrain/strength_profile.hpp"
 #include "tests/unit/profile_pushes.hpp"
+#include "tools/plant/world_config.hpp"
 
 // Depth at which the foot is found in contact, and its effect on the profile.
 namespace sandhopper {
@@ -74,6 +77,14 @@ TEST(ProfileContact, AFastFootOnGroundWithoutInertiaIsDeepWhenItIsFound) {
     EXPECT_LT(std::sqrt(sand.variance_m2), 0.5e-3) << seed;
   }
   EXPECT_GE(static_cast<double>(held) / all, 0.9);
+}
+
+// The time constant of the low-pass is that of the accelerometer as it is set up, and as it is simulated.
+TEST(ProfileContact, TheLowPassIsThatOfTheAccelerometer) {
+  const auto time_constant_s = [](double bandwidth_Hz) { return 0.5 / (std::numbers::pi * bandwidth_Hz); };
+  const ImuConfig imu;
+  EXPECT_NEAR(kAccelLowPass_s, time_constant_s(imu.rate_Hz / imu.accel_lowpass_divisor), 2e-5);
+  EXPECT_NEAR(kAccelLowPass_s, time_constant_s(SensorConfig{}.imu_bandwidth_Hz), 2e-5);
 }
 
 }  // namespace
