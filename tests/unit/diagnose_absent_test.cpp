@@ -98,7 +98,7 @@ TEST(DiagnoseAbsent, EveryBoundLeavesOutItsShareOfTheRisk) {
     const auto bound = std::ranges::find(d.absent, problem.candidates[s.candidate].label(), &Bound::id);
     if (bound == d.absent.end()) continue;
     const double t = student_t_quantile(0.05 / static_cast<double>(problem.candidates.size()),
-                                        s.evidence.degrees_of_freedom());
+                                        s.evidence.scatter().degrees_of_freedom);
     EXPECT_GE(bound->typicals * (1.0 + 1e-9), std::abs(s.evidence.size()) + t * s.evidence.standard_error())
         << bound->id;
     ++compared;

@@ -65,6 +65,53 @@ TEST(DiagnoseStatistics, EffectiveTrialsAreThoseThatCarryTheInformation) {
   EXPECT_NEAR((TrialEvidence{{1, 1, 1, 1}, {100, 1e-3, 1e-3, 1e-3}}.effective_trials()), 1.0, 1e-3);
 }
 
+TEST(DiagnoseStatistics, EqualTrialsScatterByTheirSampleVariance) {
+  const std::vector<double> score{1.0, 4.0, -2.0, 5.0}, information(4, 2.0);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(4, 4, -0.5);  // 2 delta - 2 * 2 / 8
+  covariance.diagonal().array() += 2.0;
+  const std::vector<double> left{-1.0, 2.0, -4.0, 3.0};  // score less its mean
+  const auto between = scatter_between(left, information, covariance);
+  EXPECT_NEAR(between.ratio, 30.0 / 3.0 / 2.0, 1e-12);
+  EXPECT_NEAR(between.degrees_of_freedom, 3.0, 1e-12);
+  const TrialEvidence evidence{score, information};
+  EXPECT_NEAR(evidence.scatter().degrees_of_freedom, 7.0, 1e-12);
+  EXPECT_NEAR(evidence.scatter().ratio, (4.0 + 3.0 * 5.0) / 7.0, 1e-12);
+  EXPECT_NEAR(evidence.standard_error(), std::sqrt(evidence.scatter().ratio / 8.0), 1e-12);
+}
+
+TEST(DiagnoseStatistics, ATrialThatDeterminesTheSizeAloneSaysNothingOfTheScatter) {
+  const TrialEvidence alone{{5.0}, {1.0}};
+  EXPECT_DOUBLE_EQ(alone.scatter().ratio, 1.0);
+  EXPECT_DOUBLE_EQ(alone.scatter().degrees_of_freedom, 4.0);
+  const TrialEvidence among{{5e9, 0.0, 0.0}, {1e9, 0.0, 0.0}};
+  EXPECT_DOUBLE_EQ(among.scatter().ratio, 1.0);
+  EXPECT_DOUBLE_EQ(among.scatter().degrees_of_freedom, 4.0);
+}
+
+// Quadratic drag in hops from four heights: the information goes with the fourth power of the speed. Scores
+// of pure noise must be called significant as often as the level says. The sum of squared scores, with a
+// degree of freedom for each trial, called them so four times as often at 0.1 %.
+TEST(DiagnoseStatistics, TrialsOfVeryDifferentInformationKeepTheLevel) {
+  std::vector<double> information;
+  for (const double height : {0.05, 0.11, 0.23, 0.5})
+    information.insert(information.end(), 3, std::pow(height, 4));
+  std::mt19937_64 engine(11);
+  std::normal_distribution<double> normal;
+  constexpr int kDraws = 40'000;
+  double five = 0.0, one_in_1000 = 0.0, ratio = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    TrialEvidence evidence{{}, information};
+    for (const double i : information) evidence.score.push_back(std::sqrt(i) * normal(engine));
+    five += evidence.p_value() < 0.05;
+    one_in_1000 += evidence.p_value() < 1e-3;
+    ratio += evidence.scatter().ratio;
+  }
+  EXPECT_LT(five / kDraws, 0.05);
+  EXPECT_GT(five / kDraws, 0.01);
+  EXPECT_LT(one_in_1000 / kDraws, 1e-3);
+  EXPECT_NEAR(ratio / kDraws, 1.0, 0.02);
+}
+
 // Products of residual and one column of a trial: score u and information h.
 Eigen::MatrixXd gram_of(double u, double h) { return Eigen::MatrixXd{{1e3, u}, {u, h}}; }
 

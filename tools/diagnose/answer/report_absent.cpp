@@ -32,20 +32,20 @@ std::vector<Set> fitted_parts(const Search& search, const Set& set) {
 // Largest size of a screened effect, in typical sizes: |size| + t s with
 //   s^2 = se^2 + v / sum I,   v: deviance along any parameter that another form of the found laws leaves
 struct Margin {
-  double quantile = 0.0;  // t
-  double form = 0.0;      // v
+  double risk = 0.0;  // that the effect is larger
+  double form = 0.0;  // v
   double largest(const TrialEvidence& evidence) const {
     const double information = evidence.total_information();
     if (information <= 0.0) return 1e300;
-    return std::abs(evidence.size()) +
-           quantile * std::sqrt(std::pow(evidence.standard_error(), 2) + form / information);
+    const auto scatter = evidence.scatter();
+    return std::abs(evidence.size()) + student_t_quantile(risk, scatter.degrees_of_freedom) *
+                                           std::sqrt((scatter.ratio + form) / information);
   }
 };
 
 // The margin beside a set. All bounds of an answer hold together with 95 % (Bonferroni).
 Margin margin_beside(const Problem& problem, const Search& search, const SetFit& set) {
-  return {student_t_quantile(kLevel / static_cast<double>(problem.candidates.size()),
-                             degrees_of_freedom(problem.trials.size())),
+  return {kLevel / static_cast<double>(problem.candidates.size()),
           form_deviance(problem, search.null().fit.deviance - set.fit.deviance)};
 }
 

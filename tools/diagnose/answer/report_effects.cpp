@@ -1,53 +1,18 @@
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "tools/diagnose/answer/masses.hpp"
+#include "tools/diagnose/answer/parameter_errors.hpp"
 #include "tools/diagnose/answer/report_parts.hpp"
 #include "tools/diagnose/evidence/calibration.hpp"
-#include "tools/diagnose/fit/levels.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-// Covariance of a fit's parameters in typical sizes. Sandwich estimate: the scatter of the scores between
-// trials, averaged with the noise (kModelTrials); in addition another form of the laws (`form_deviance`).
-MatrixXd parameter_covariance(const Problem& problem, const Point& point, double explained) {
-  const auto directions = parameter_directions(problem, point);
-  const auto linear = linearise_all(problem, point, directions);
-  const auto k = static_cast<Index>(directions.size());
-  const auto own = static_cast<Index>(point.hypothesis.parameters());
-  MatrixXd information = MatrixXd::Zero(k, k), between = MatrixXd::Zero(k, k);
-  for (const auto& trial : linear) {
-    information += trial.gram.bottomRightCorner(k, k);
-    VectorXd score = trial.gram.col(0).tail(k);
-    // A tolerance that is held at its limit keeps a score in every trial, which is no scatter between them.
-    for (std::size_t i = 0; i < point.tolerances.size(); ++i)
-      if (std::abs(point.tolerances[i]) >= kMostTolerance) score[own + static_cast<Index>(i)] = 0.0;
-    between += score * score.transpose();
-  }
-  MatrixXd held = information;
-  Index at = 0;
-  for (const auto c : point.hypothesis.candidates)
-    for (std::size_t j = 0; j < problem.candidates[c].parameters.size(); ++j, ++at)
-      held(at, at) += is_amplitude(problem.candidates[c].parameters, j) ? kPriorOfAmplitude : 1.0;
-  for (; at < k; ++at) held(at, at) += 1.0;
-  const MatrixXd inverse = held.ldlt().solve(MatrixXd::Identity(k, k));
-  const double trials = static_cast<double>(linear.size());
-  // The prior counts like an observation, because sampling limits how well a channel's delay is known.
-  // Another form of the laws adds to what the recordings show, not to what the prior says.
-  const MatrixXd middle =
-      (kModelTrials * information + trials * between) / degrees_of_freedom(linear.size()) +
-      (held - information) + form_deviance(problem, explained) * information;
-  const MatrixXd covariance = inverse * middle * inverse;
-  return covariance.topLeftCorner(own, own);
-}
 
 // Loss of deviance on held-out trials without this effect, limited to the rise of the deviance in the fit
 // without it. If two effects nearly cancel, each seems to explain much, but without it the other one shrinks,
@@ -67,14 +32,13 @@ std::string filled(std::string text, const std::string& channel) {
 }
 
 // Amplitude sqrt(a^2 + b^2) of a sine part `j` and the cosine part after it, with the interval of its
-// linearisation at the fit. `at`: row of the sine part in the covariance.
+// linearisation at the fit. `at`: number of the sine part among all parameters.
 FoundParameter amplitude_of(const Candidate& candidate, const std::vector<double>& values,
-                            const MatrixXd& covariance, double quantile, std::size_t j, Index at) {
+                            const ParameterErrors& errors, std::size_t j, Index at) {
   const auto &sine = candidate.parameters[j], &cosine = candidate.parameters[j + 1];
   const double amplitude = std::hypot(values[j], values[j + 1]);
   const Eigen::Vector2d along(sine.typical * values[j], cosine.typical * values[j + 1]);
-  const double variance = along.dot(covariance.block(at, at, 2, 2) * along);
-  const double half = amplitude > 0.0 ? quantile * std::sqrt(std::max(0.0, variance)) / amplitude : 0.0;
+  const double half = amplitude > 0.0 ? errors.half_width(at, along / amplitude) : 0.0;
   return {sine.amplitude_name, amplitude, std::max(0.0, amplitude - half), amplitude + half, true};
 }
 
@@ -86,15 +50,14 @@ std::optional<double> limit_of(const EffectParameter& p, double value) {
   return limit == 0.0 || !std::isfinite(limit) ? std::nullopt : std::optional(limit);
 }
 
-// Fitted parameters of one effect with their 95 % intervals. `at`: row of its first parameter in the
-// covariance.
+// Fitted parameters of one effect with their 95 % intervals. `at`: number of its first parameter among all.
 std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std::vector<double>& values,
-                                          const MatrixXd& covariance, double quantile, Index at) {
+                                          const ParameterErrors& errors, Index at) {
   std::vector<FoundParameter> found;
   for (std::size_t j = 0; j < candidate.parameters.size(); ++j, ++at) {
     const auto& p = candidate.parameters[j];
     const double value = values[j];
-    const double half = quantile * std::sqrt(std::max(0.0, covariance(at, at))) * p.typical;
+    const double half = errors.half_width(at) * p.typical;
     FoundParameter out{p.name, p.reported(value), p.reported(std::max(p.low, value - half)),
                        p.reported(std::min(p.high, value + half)), false};
     out.limit = limit_of(p, value);
@@ -108,8 +71,7 @@ std::vector<FoundParameter> parameters_of(const Candidate& candidate, const std:
       const auto other = [&](double reported) { return p.other_scale * (reported - p.base) / p.scale; };
       found.push_back({p.other_name, other(out.value), other(out.low), other(out.high), true});
     }
-    if (!p.amplitude_name.empty())
-      found.push_back(amplitude_of(candidate, values, covariance, quantile, j, at));
+    if (!p.amplitude_name.empty()) found.push_back(amplitude_of(candidate, values, errors, j, at));
     found.push_back(out);
     // For a number that the belief already contains, also give its change.
     if (p.base != 0.0 && p.scale != 0.0 && p.power == 1.0)
@@ -147,8 +109,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
   const SetFit& best = search.best();
   const Point& point = best.fit.point;
   const double explained = std::max(1e-300, search.null().fit.deviance - best.fit.deviance);
-  const MatrixXd covariance = parameter_covariance(problem, point, explained);
-  const double quantile = student_t_quantile(kLevel, degrees_of_freedom(problem.trials.size()));
+  const ParameterErrors errors(problem, point, form_deviance(problem, explained));
   Index at = 0;
   for (std::size_t e = 0; e < point.hypothesis.candidates.size(); ++e) {
     const auto c = point.hypothesis.candidates[e];
@@ -159,7 +120,7 @@ void report_effects(const Problem& problem, const Search& search, const Posterio
     found.channel = candidate.channel;
     found.statement = filled(candidate.effect->statement, candidate.channel);
     found.equation = candidate.effect->equation;
-    found.parameters = parameters_of(candidate, point.hypothesis.values[e], covariance, quantile, at);
+    found.parameters = parameters_of(candidate, point.hypothesis.values[e], errors, at);
     at += static_cast<Index>(candidate.parameters.size());
     found.posterior_mass = found.mass = belief.mass.contains(c) ? belief.mass.at(c) : 0.0;
     found.indistinguishable_from = class_of(problem, c, belief);

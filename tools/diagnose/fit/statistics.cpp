@@ -33,6 +33,28 @@ double normal_quantile(double two_sided) {
   return quantile(complement(boost::math::normal(), 0.5 * two_sided));
 }
 
+TrialScatter with_noise(const TrialScatter& between) {
+  const double all = kModelTrials + between.degrees_of_freedom;
+  return {(kModelTrials + between.degrees_of_freedom * between.ratio) / all, all};
+}
+
+TrialScatter scatter_between(std::span<const double> scores, std::span<const double> variances,
+                             const Eigen::MatrixXd& covariance) {
+  // Scores of trials that determine the estimate alone are zero but for rounding.
+  constexpr double kRounding = 1e-9;
+  double squares = 0.0, expected = 0.0;
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(covariance.rows());
+  for (std::size_t t = 0; t < scores.size(); ++t) {
+    const auto i = static_cast<Eigen::Index>(t);
+    if (!(covariance(i, i) > kRounding * variances[t])) continue;
+    weight[i] = variances[t] / covariance(i, i);
+    squares += weight[i] * scores[t] * scores[t];
+    expected += variances[t];
+  }
+  const double spread = weight.dot(covariance.cwiseAbs2() * weight);
+  return spread > 0.0 ? TrialScatter{squares / expected, expected * expected / spread} : TrialScatter{};
+}
+
 double TrialEvidence::total_information() const { return sum(information); }
 
 double TrialEvidence::size() const {
@@ -40,15 +62,21 @@ double TrialEvidence::size() const {
   return information_sum > 0.0 ? sum(score) / information_sum : 0.0;
 }
 
+TrialScatter TrialEvidence::scatter() const {
+  const auto trials = static_cast<Eigen::Index>(score.size());
+  const double information_sum = sum(information), b = size();
+  const auto of_trial = Eigen::Map<const Eigen::VectorXd>(information.data(), trials);
+  // Scores u_t - b I_t after the fit of b alone.
+  std::vector<double> left;
+  for (std::size_t t = 0; t < score.size(); ++t) left.push_back(score[t] - b * information[t]);
+  Eigen::MatrixXd covariance = of_trial.asDiagonal();
+  if (information_sum > 0.0) covariance -= of_trial * of_trial.transpose() / information_sum;
+  return with_noise(scatter_between(left, information, covariance));
+}
+
 double TrialEvidence::standard_error() const {
   const double information_sum = sum(information);
-  if (information_sum <= 0.0) return 1e300;
-  const double b = size();
-  double between = 0.0;
-  for (std::size_t t = 0; t < score.size(); ++t) between += std::pow(score[t] - b * information[t], 2);
-  const double trials = static_cast<double>(score.size());
-  const double variance = (kModelTrials * information_sum + between * trials) / degrees_of_freedom();
-  return std::sqrt(variance) / information_sum;
+  return information_sum > 0.0 ? std::sqrt(scatter().ratio / information_sum) : 1e300;
 }
 
 double TrialEvidence::effective_trials() const {
@@ -70,7 +98,7 @@ double TrialEvidence::held_out_drop() const {
 }
 
 double TrialEvidence::t() const { return size() / standard_error(); }
-double TrialEvidence::p_value() const { return student_t_two_sided(t(), degrees_of_freedom()); }
+double TrialEvidence::p_value() const { return student_t_two_sided(t(), scatter().degrees_of_freedom); }
 
 double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size_t chosen, unsigned seed) {
   const std::size_t trials = candidates[chosen].score.size();

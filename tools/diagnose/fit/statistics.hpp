@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -13,24 +14,37 @@ double student_t_quantile(double two_sided, double degrees_of_freedom);
 // The value of a standard normal variable whose magnitude is exceeded with this probability.
 double normal_quantile(double two_sided);
 
-// A variance between trials is regularised as if this many more trials had shown the noise's own variance.
+// Variance of an estimate from the scatter between trials, as a multiple of the variance that the noise alone
+// gives it.
+struct TrialScatter {
+  double ratio = 1.0;
+  double degrees_of_freedom = 0.0;
+};
+
+// The scatter pooled with the noise's own variance, as if this many degrees of freedom had shown the latter.
 inline constexpr double kModelTrials = 4.0;
-// Its degrees of freedom.
-inline double degrees_of_freedom(std::size_t trials) {
-  return kModelTrials + static_cast<double>(trials) - 1.0;
-}
+TrialScatter with_noise(const TrialScatter& between);
+
+// Scatter between the scores of trials after the fit. With noise alone, the score r_t of trial t adds i_t to
+// the variance of the estimate before the fit, and the covariance after it is C (trials x trials): a trial
+// that determines the estimate alone is followed by it, so its score after the fit says little.
+//   ratio = sum_t r_t^2 i_t / C_tt / sum_t i_t
+//   degrees of freedom = (sum_t i_t)^2 / sum_ts (i_t / C_tt) (i_s / C_ss) C_ts^2
+// For n equal trials these are the sample variance and n - 1. Source: Bell and McCaffrey, Survey Methodology
+// 28 (2002), with Satterthwaite's degrees of freedom.
+TrialScatter scatter_between(std::span<const double> scores, std::span<const double> variances,
+                             const Eigen::MatrixXd& covariance);
 
 // Evidence for the size b of an effect, trial by trial: score u_t and information I_t. The best b is sum u /
-// sum I. Its variance is the scatter between trials, regularised by nu0 = kModelTrials:
-//   standard error = sqrt(var) / sum I,   var = (nu0 sum I + T sum (u_t - b I_t)^2) / (nu0 + T - 1)
+// sum I. Its variance is that of the noise, 1 / sum I, times with_noise(scatter of u_t - b I_t).
 struct TrialEvidence {
   std::vector<double> score;
   std::vector<double> information;
 
   double total_information() const;
   double size() const;
-  double t() const;  // size / standard error
-  double degrees_of_freedom() const { return diagnose::degrees_of_freedom(score.size()); }
+  double t() const;                 // size / standard error
+  TrialScatter scatter() const;     // with that of the noise
   double p_value() const;           // for this candidate alone, not corrected for the others
   double standard_error() const;    // standard deviation of size()
   double effective_trials() const;  // (sum I)^2 / sum I^2
