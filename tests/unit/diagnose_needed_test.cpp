@@ -92,6 +92,26 @@ TEST(DiagnoseNeeded, ALargeEffectBeyondDoubtNeedsNoFlips) {
   EXPECT_FALSE(is_sound(evidence(0.9e-8, 0.5), large));
 }
 
+// Of sixteen effects the least p-value by flips at the fit is 16 * 2^(1 - T): below 5 % from ten trials on.
+TEST(DiagnoseNeeded, FlipsThatCannotTellOneOfManyEffectsDoNotCountAgainstALargeOne) {
+  auto large = beside();
+  large.explained = 100.0;
+  large.candidates = 16;
+  auto nine = evidence(0.9e-4, 0.5);
+  nine.evidence.score.assign(9, 1.0);
+  nine.evidence.information.assign(9, 1.0);
+  auto ten = nine;
+  ten.evidence.score.assign(10, 1.0);
+  ten.evidence.information.assign(10, 1.0);
+  EXPECT_TRUE(is_sound(nine, large));
+  EXPECT_FALSE(is_sound(ten, large));
+  nine.p_value = 1.1e-4;
+  EXPECT_FALSE(is_sound(nine, large));
+  large.explained = 1e6;  // A small one is flipped without it, against all effects at once.
+  nine.p_value = 0.9e-4;
+  EXPECT_FALSE(is_sound(nine, large));
+}
+
 TEST(DiagnoseNeeded, WhatTheFitDoesNotBearOutNeedsFlips) {
   auto large = beside();
   large.explained = 100.0;

@@ -79,6 +79,13 @@ TEST(DiagnoseStatistics, EqualTrialsScatterByTheirSampleVariance) {
   EXPECT_NEAR(evidence.standard_error(), std::sqrt(evidence.scatter().ratio / 8.0), 1e-12);
 }
 
+// Size 2: the scores are off by 0, 3, 0 and -3. A trial without information does not count.
+TEST(DiagnoseStatistics, TheDispersionCountsEveryTrialAlike) {
+  const TrialEvidence evidence{{200.0, 7.0, 8.0, -1.0, 0.0}, {100.0, 2.0, 4.0, 1.0, 0.0}};
+  EXPECT_NEAR(evidence.size(), 2.0, 1e-12);
+  EXPECT_NEAR(evidence.dispersion(), (4.0 + 9.0 / 2.0 + 9.0) / 7.0, 1e-12);
+}
+
 TEST(DiagnoseStatistics, ATrialThatDeterminesTheSizeAloneSaysNothingOfTheScatter) {
   const TrialEvidence alone{{5.0}, {1.0}};
   EXPECT_DOUBLE_EQ(alone.scatter().ratio, 1.0);

@@ -12,9 +12,11 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Smallest (effective) number T of trials for a sign-flip test: its least p-value, 2^(1 - T), is below
-// kLevel.
-const double kTrialsToFlip = 1.0 + std::ceil(-std::log2(kLevel));
+// Smallest (effective) number T of trials for a sign-flip test of one of n hypotheses: its least p-value,
+// n 2^(1 - T), is below kLevel.
+double trials_to_flip(std::size_t hypotheses) {
+  return 1.0 + std::ceil(std::log2(static_cast<double>(hypotheses) / kLevel));
+}
 // The fit without the effect must be worse by this fraction of the linear gain, or worse in most trials. If
 // the simulation is chaotic, the derivative is huge but the real difference is near zero.
 constexpr double kComesTrue = 0.05;
@@ -45,11 +47,12 @@ double significance_needed(const BesideEvidence& beside, bool enough) {
 }
 
 // True if sign flips need not confirm the p-value. They are evaluated without the effect, where the
-// simulation may not be linear in a large effect. They also have little power if a few trials carry nearly
-// all information.
+// simulation may not be linear in a large effect; only flips at the fit are left then, and those count all
+// candidates. They also have little power if a few trials carry nearly all information.
 bool needs_no_flips(const EffectEvidence& evidence, const BesideEvidence& beside) {
-  const bool flips_can_tell = evidence.evidence.effective_trials() >= kTrialsToFlip;
   const bool far = evidence.gain > kFarShare * beside.explained;
+  const bool flips_can_tell =
+      evidence.evidence.effective_trials() >= trials_to_flip(far ? beside.candidates : 1);
   return (far || !flips_can_tell || beside.removes_offset) &&
          evidence.p_value < (flips_can_tell ? kBeyondDoubt : kTwofold) &&
          (beside.removes_offset || is_mostly_true(beside.drop, evidence.gain));
@@ -76,7 +79,7 @@ bool removes_offset(double z_without, double z_with) {
 }
 
 Need need_of(EffectEvidence& evidence, const BesideEvidence& beside) {
-  const bool enough = static_cast<double>(beside.trials) >= kTrialsToFlip;
+  const bool enough = static_cast<double>(beside.trials) >= trials_to_flip(1);
   const double flip_needed = enough && !needs_no_flips(evidence, beside) ? kLevel : 1.0;
   const double smallest = evidence.gain > kUnmistakablePerRow * beside.rows ? 0.0 : kSmallestOfTypical;
   evidence.weak = !(evidence.p_value < kSignificance);

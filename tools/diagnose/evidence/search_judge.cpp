@@ -225,10 +225,8 @@ void Search::judge(SetFit& result) {
     }
     if (within_tolerance(*problem_, delays) || within_conversion(*problem_, point.hypothesis, e))
       result.sound = false;
-    const double model = std::max(1e-300, group.evidence.total_information());
-    const double robust = std::pow(group.evidence.standard_error() * model, 2);
-    evidence.dispersion = std::max(1.0, robust / model);
-    dispersion += robust / model;
+    evidence.dispersion = std::max(1.0, group.evidence.dispersion());
+    dispersion += group.evidence.dispersion();
     ++count;
     result.evidence.push_back(std::move(evidence));
     first += width;
@@ -263,6 +261,7 @@ void Search::judge(SetFit& result) {
     const Need need = need_of(
         evidence, {.trials = problem_->trials.size(),
                    .effects = result.set.size(),
+                   .candidates = problem_->candidates.size(),
                    .rows = problem_->rows(),
                    .form_error = problem_->plant->form_error(),
                    .is_strongest = &evidence == &*strongest,

@@ -74,6 +74,17 @@ TrialScatter TrialEvidence::scatter() const {
   return with_noise(scatter_between(left, information, covariance));
 }
 
+double TrialEvidence::dispersion() const {
+  const double b = size();
+  double squares = 0.0, trials = 0.0;
+  for (std::size_t t = 0; t < score.size(); ++t) {
+    if (!(information[t] > 0.0)) continue;
+    squares += std::pow(score[t] - b * information[t], 2) / information[t];
+    ++trials;
+  }
+  return (kModelTrials + squares) / (kModelTrials + std::max(0.0, trials - 1.0));
+}
+
 double TrialEvidence::standard_error() const {
   const double information_sum = sum(information);
   return information_sum > 0.0 ? std::sqrt(scatter().ratio / information_sum) : 1e300;

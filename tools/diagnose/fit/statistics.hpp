@@ -43,8 +43,12 @@ struct TrialEvidence {
 
   double total_information() const;
   double size() const;
-  double t() const;                 // size / standard error
-  TrialScatter scatter() const;     // with that of the noise
+  double t() const;              // size / standard error
+  TrialScatter scatter() const;  // with that of the noise
+  // Pearson's dispersion of quasi-likelihood, pooled with the noise: every trial counts alike.
+  //   (nu0 + sum_t (u_t - b I_t)^2 / I_t) / (nu0 + T - 1),   nu0 = kModelTrials
+  // Source: McCullagh and Nelder, Generalized Linear Models, 2nd ed. (1989), section 9.2.
+  double dispersion() const;
   double p_value() const;           // for this candidate alone, not corrected for the others
   double standard_error() const;    // standard deviation of size()
   double effective_trials() const;  // (sum I)^2 / sum I^2
