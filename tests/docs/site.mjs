@@ -46,6 +46,19 @@ const wait = async (browser, condition, what) => {
   assert.fail(what);
 };
 
+// Equations that stand as they were typed. Code may hold them.
+function rawMaths(browser) {
+  return browser.run(() => {
+    const walker = document.createTreeWalker(document.querySelector('main'), NodeFilter.SHOW_TEXT);
+    const raw = [];
+    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+      if (node.parentElement.closest('pre, code, script, style')) continue;
+      raw.push(...node.data.match(/(?<![\w.])d?[A-Za-z]_[A-Za-z0-9]{1,3}(?!\w|\.\w)|\^[\w(-]|\bsqrt\(|\+-|<=|>=/g) ?? []);
+    }
+    return raw;
+  });
+}
+
 function seen(browser) {
   return browser.run(() => {
     const top = document.documentElement;
@@ -72,6 +85,7 @@ async function look(browser, page, width, theme) {
   await browser.resize(width, 900);
   await browser.open(join(site, page));
   await browser.run((chosen) => { document.documentElement.dataset.theme = chosen; }, theme);
+  assert.deepEqual(await rawMaths(browser), [], `${page}: equations as typed`);
   const found = await seen(browser);
   const where = `${page} at ${width}, ${theme}`;
   assert.ok(found.wider <= 0, `${where}: ${found.wider} pixels wider than the window`);

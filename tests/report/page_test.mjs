@@ -8,6 +8,7 @@ import { join, resolve } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { Browser } from './browser.mjs';
 import { Layout } from './layout.mjs';
+import { checkWords } from './study_page.mjs';
 
 const build = resolve(process.argv[2]);
 const shots = join(build, 'report_screenshots');
@@ -242,6 +243,11 @@ async function everything() {
     const paper = programme();
     await open(browser, paper.page);
     await checkStudy(browser, 'the programme');
+    await check('the programme: its equations are set, its answer stands first', async () => {
+      assert.deepEqual(await checkWords(browser), []);
+      assert.match(await browser.run(() => document.getElementById('verdict').textContent), /^\d+ of 36 claims hold/);
+      assert.ok(await browser.run(() => document.querySelectorAll('#section-1 .math sub, #section-1 .math sup').length) > 10);
+    });
     await check('the programme: 36 claims, on the page and as numbers', async () => {
       assert.equal(await browser.run(() => document.querySelectorAll('#section-1 tbody tr').length), 36);
       assert.equal(paper.numbers.claims.length, 36);

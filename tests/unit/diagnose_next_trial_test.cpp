@@ -130,7 +130,11 @@ TEST(DiagnoseNextTrial, TightensTheWidestBoundWhereNothingIsMissing) {
   // The widest bound of all, also of an effect that is not listed because its prior alone bounds it closer.
   EXPECT_THAT(d.next.why, HasSubstr("he widest bound is that of"));
   for (const auto& bound : d.absent | std::views::drop(1))
-    EXPECT_THAT(d.next.why, Not(HasSubstr(bound.id + ",")));
+    EXPECT_THAT(d.next.why, Not(HasSubstr(bound.id + ";")));
+  // Its size stands in the table of bounds, which holds for all of them together; another number of it here
+  // would contradict that.
+  EXPECT_THAT(d.next.why, HasSubstr("% of its width"));
+  EXPECT_THAT(d.next.why, Not(HasSubstr("times its typical size")));
 }
 
 TEST(DiagnoseNextTrial, NarrowsTheIntervalOfTheOneExplanation) {

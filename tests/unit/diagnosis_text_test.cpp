@@ -46,6 +46,40 @@ TEST(DiagnosisText, AnEffectThatIsMoreLikelyNotThereIsAGuessInTheHeadline) {
   EXPECT_EQ(headline(d), "Something is missing: perhaps axis.viscous.");
 }
 
+// A bias whose interval was -0.3 to 0.5 mm stood in the headline beside two effects that were found.
+TEST(DiagnosisText, AnEffectWhoseIntervalHoldsZeroIsNoFindingInTheHeadline) {
+  Diagnosis d;
+  d.verdict = Verdict::missing_physics;
+  d.detail = Detail::known;
+  d.effects = {found("terrain.crust", 0.7), found("sensor.bias", 0.7)};
+  EXPECT_EQ(headline(d), "Something is missing: terrain.crust, sensor.bias.");
+  d.effects.back().parameters = {{"bias_m", 0.00009, -0.00034, 0.00052, false}};
+  EXPECT_EQ(headline(d), "Something is missing: terrain.crust, perhaps sensor.bias.");
+  d.effects = {d.effects.back()};
+  EXPECT_EQ(headline(d), "Something may be missing: sensor.bias; its 95 % interval holds zero.");
+}
+
+// The tables have the channel's unit, so the sentences beside them have it, too.
+TEST(DiagnosisText, NoiseAndLimitsStandInTheUnitOfTheTables) {
+  SensorNoise noise{
+      .channel = "height_m", .stated = 0.004, .said_by = "", .measured = 0.00507, .used = 0.00531};
+  EXPECT_THAT(noise.in_words(), HasSubstr("0.00531 m, 1.3 times the 0.004 m stated"));
+  EXPECT_THAT(noise.in_words(), Not(HasSubstr("mm")));
+  FoundParameter depth{"crust_depth_m", 0.0002, 0.0002, 0.00045, false};
+  depth.limit = 0.0002;
+  EXPECT_THAT(depth.limit_in_words(), HasSubstr("limit of 0.0002 m"));
+}
+
+TEST(DiagnosisText, WithNothingFoundThereIsOneErrorAndNoBeforeAndAfter) {
+  Diagnosis d = unknown(2.0, 2.0);
+  d.verdict = Verdict::consistent;
+  EXPECT_THAT(to_text(d), HasSubstr("position_rad: 2.0 times the noise floor on held-out trials"));
+  EXPECT_THAT(to_text(d), Not(HasSubstr("before")));
+  d.verdict = Verdict::missing_physics;
+  d.effects = {found("axis.coulomb", 0.9)};
+  EXPECT_THAT(to_text(d), HasSubstr("2.0 times the noise floor before, 2.0 after"));
+}
+
 Diagnosis with_noise(double stated, double measured, double used) {
   Diagnosis d;
   d.noise = {{.channel = "position_rad",

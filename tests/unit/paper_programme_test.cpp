@@ -115,8 +115,11 @@ TEST(PaperProgramme, NumbersAndPageHoldTheWholeTable) {
   for (const auto& claim : json["claims"])
     for (const auto& one : claim["figures"]) EXPECT_TRUE(one["value"].is_number()) << claim["number"];
   EXPECT_EQ(json["treatments"].size(), treatment_cases().size());
+  EXPECT_EQ(json.dump().find("⟦"), std::string::npos) << "the marks of equations belong to the page";
   const auto study = programme_report(small_programme(), table());
   EXPECT_EQ(study.sections.size(), 6U);
+  EXPECT_EQ(study.verdict, summary(table()));
+  EXPECT_NE(study.verdict.find(" of 36 claims hold, "), std::string::npos) << study.verdict;
   const auto& claims = std::get<StudyTable>(study.sections.front().items.at(1));
   EXPECT_EQ(claims.rows.size(), 36U);
   EXPECT_EQ(claims.row_marks.size(), 36U);

@@ -9,12 +9,12 @@
 #include "tools/experiment/paper/claims/claims.hpp"
 #include "tools/experiment/paper/report.hpp"
 #include "tools/plant/load_world.hpp"
+#include "tools/report/study_text.hpp"
 
 namespace sandhopper::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using paper::Verdict;
 
 struct Options {
   bool quick = false;
@@ -44,12 +44,8 @@ void write_json(const nlohmann::ordered_json& json, const fs::path& path) {
 
 void tell(Session& session, const std::vector<paper::Claim>& claims) {
   for (const auto& claim : claims)
-    session.say("{:2}  {:17}  {}", claim.number, paper::words(claim.verdict), claim.statement);
-  const auto count = [&](Verdict verdict) {
-    return std::ranges::count(claims, verdict, &paper::Claim::verdict);
-  };
-  session.say("{} of {} claims come out, {} only on a condition, {} not", count(Verdict::comes_out),
-              claims.size(), count(Verdict::only_if), count(Verdict::does_not));
+    session.say("{:2}  {:20}  {}", claim.number, paper::words(claim.verdict), without_marks(claim.statement));
+  session.say("{}", paper::summary(claims));
 }
 
 ExitCode run(Session& session, const Options& options) {

@@ -1,7 +1,6 @@
 #include "tools/diagnose/rounds.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -11,6 +10,8 @@
 #include "tools/diagnose/evidence/simple_answers.hpp"
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/spread_seen.hpp"
+#include "tools/diagnose/model/digits.hpp"
+#include "tools/diagnose/model/quantity.hpp"
 #include "tools/diagnose/recordings/events.hpp"
 #include "tools/diagnose/recordings/many_trials.hpp"
 
@@ -30,6 +31,17 @@ constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;
 constexpr double kNoiseHidesAll = 4.0;  // Ratio to the sensors' own noise.
 
+// "suction 0.631 N, onset power 1.5"
+std::string values_text(const Candidate& candidate, const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size() && i < candidate.parameters.size(); ++i) {
+    const auto quantity = quantity_of(candidate.parameters[i].name);
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", quantity.words, plain_number(values[i], 3),
+                        quantity.unit.empty() ? "" : " ", quantity.unit);
+  }
+  return text;
+}
+
 void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   // The screen at the null, and beside the best set with each of its effects left out.
   std::vector<std::vector<std::size_t>> screens{{}};
@@ -39,19 +51,20 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
   for (const auto& set : screens) {
     const auto& screened = search.screened(set);
     for (std::size_t i = 0; i < screened.size() && i < kScreenedTold; ++i)
-      diagnosis.log.push_back(fmt::format("screen beside {}: {}: linear gain {:.1f} at [{:.4g}]",
-                                          set_text(problem, set),
-                                          problem.candidates[screened[i].candidate].label(), screened[i].gain,
-                                          fmt::join(screened[i].values, ", ")));
+      diagnosis.log.push_back(
+          fmt::format("beside {}: {} would gain {:.1f} (linear) with {}", set_text(problem, set),
+                      problem.candidates[screened[i].candidate].label(), screened[i].gain,
+                      values_text(problem.candidates[screened[i].candidate], screened[i].values)));
   }
   for (std::size_t i = 0; i < problem.tolerances.size(); ++i)
-    diagnosis.log.push_back(fmt::format("{}: {:.2f} times what is unsure, {:.2f} with the best",
-                                        problem.tolerances[i].name, search.null().fit.point.tolerances[i],
-                                        search.best().fit.point.tolerances[i]));
+    diagnosis.log.push_back(
+        fmt::format("{}: moved by {:.2f} times its tolerance as believed, by {:.2f} with the best set",
+                    problem.tolerances[i].name, search.null().fit.point.tolerances[i],
+                    search.best().fit.point.tolerances[i]));
   for (const auto* fit : {&search.null(), &search.best()}) {
     const auto leans = leans_of(problem, fit->fit.point);
     for (std::size_t i = 0; i < leans.size() && i < kLeansTold; ++i)
-      diagnosis.log.push_back(fmt::format("all trials lean alike with {}: {} by {:.1f}",
+      diagnosis.log.push_back(fmt::format("beside {}: all trials need {} alike, by {:.1f} standard errors",
                                           set_text(problem, fit->set), leans[i].nuisance, leans[i].z));
   }
   std::vector<const SetFit*> fits;
@@ -63,15 +76,16 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
     std::string evidence;
     const auto& h = f.fit.point.hypothesis;
     for (std::size_t e = 0; e < h.candidates.size(); ++e)
-      evidence += fmt::format(" [{:.4g}]", fmt::join(h.values[e], ", "));
+      evidence += fmt::format("; {}", values_text(problem.candidates[h.candidates[e]], h.values[e]));
     for (const auto& e : f.evidence)
-      evidence += fmt::format(" ({}: {:.3g} typical, p {:.1e}, flip {:.3f}, gain {:.1f}{})",
+      evidence += fmt::format("; {}: {:.3g} times typical, p {:.1e}, by sign flips {:.3f}, gain {:.1f}{}",
                               problem.candidates[e.candidate].label(), e.typicals, e.p_value, e.flip_p_value,
                               e.gain, e.at_bound ? ", at bound" : "");
-    diagnosis.log.push_back(fmt::format("criterion {:.1f} deviance {:.1f} dispersion {:.2f} {}{}{} {}{}",
-                                        search.criterion(f), f.fit.deviance, f.dispersion, f.rough ? "~" : "",
-                                        f.fit.status == FitStatus::failed ? "unsettled " : "",
-                                        f.needed ? "needed" : "-", set_text(problem, f.set), evidence));
+    diagnosis.log.push_back(
+        fmt::format("set {}: criterion {:.1f}, deviance {:.1f}, dispersion {:.2f}, {}{}{}{}",
+                    set_text(problem, f.set), search.criterion(f), f.fit.deviance, f.dispersion,
+                    f.needed ? "needed" : "not needed", f.rough ? ", fitted roughly" : "",
+                    f.fit.status == FitStatus::failed ? ", fit not settled" : "", evidence));
   }
 }
 
@@ -132,8 +146,9 @@ std::optional<Search> searched_again(Problem& problem, Search& before, const Sea
   const auto errors = problem.model_error;
   update_noise(problem, before.best().fit.point);
   const double change = noise_change(noise, problem.noise);
-  diagnosis.log.push_back(fmt::format("noise {:.2f} times the sensors' own, changed by {:.3f}",
-                                      noise_over_sensors(problem), change));
+  diagnosis.log.push_back(
+      fmt::format("noise beside the best set {:.2f} times the sensors' own, a share of {:.3f} changed",
+                  noise_over_sensors(problem), change));
   const auto back = [&] {
     problem.used = used;
     problem.noise = noise;
@@ -153,7 +168,7 @@ std::optional<Search> searched_again(Problem& problem, Search& before, const Sea
     before.set_stopped();
     return {};
   }
-  diagnosis.log.emplace_back("with the noise beside the best set");
+  diagnosis.log.emplace_back("searched again with the noise beside the best set");
   log_sets(problem, again, diagnosis);
   return again;
 }
@@ -263,14 +278,14 @@ Search search_in_rounds(Prepared& prepared, Recordings& clean, const EngineOptio
   while (stretch + 1 < stretches.size() && !search.stopped() && leaves_more_than_noise(problem, search)) {
     prepare_again(++stretch);
     diagnosis.log.push_back(
-        fmt::format("again in shorter stretches: {} times the shortest", stretches[stretch]));
+        fmt::format("searched again in shorter stretches: {} times the shortest", stretches[stretch]));
     search = search_from_start();
   }
   if (search.stopped()) return search;
   const auto events = find_events(problem, search.best().fit.point);
   if (events.empty()) return search;
   report_events(problem, events, diagnosis);
-  diagnosis.log.emplace_back("without what happened once");
+  diagnosis.log.emplace_back("searched again without what happened once");
   leave_out(events, problem, clean);
   prepare_again(stretch);
   return search_from_start();

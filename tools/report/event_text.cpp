@@ -16,8 +16,8 @@ std::string values_of(const Event& event, const ConfigNode* robot) {
       return fmt::format("left {:.4f} rad, right {:.4f} rad, expected {:.4f} rad, moved by {:.4f} rad", v[0],
                          v[1], v[2], v[3]);
     case EventKind::released:
-      return fmt::format("body feels {:.2f} m/s², foot at {:.1f} mm, body at {:.1f} mm", v[0], 1e3 * v[1],
-                         1e3 * v[2]);
+      return fmt::format("the body's accelerometer reads {:.2f} m/s², foot at {:.1f} mm, body at {:.1f} mm",
+                         v[0], 1e3 * v[1], 1e3 * v[2]);
     case EventKind::touchdown:
     case EventKind::stance_switch:
     case EventKind::liftoff:

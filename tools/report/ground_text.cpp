@@ -79,9 +79,9 @@ std::string trial_line(const ReportData& data) {
   const auto& last = data.strides.back();
   std::string text =
       last.profile.depth_max_m > 0.0
-          ? fmt::format("ground: {}; known from {:.0f} to {:.0f} mm of depth", headline(last.ground),
-                        1e3 * last.profile.depth_min_m, 1e3 * last.profile.depth_max_m)
-          : std::string("ground: no stride says anything of it");
+          ? fmt::format("ground: {}; its strength profile is known from {:.0f} to {:.0f} mm of depth",
+                        headline(last.ground), 1e3 * last.profile.depth_min_m, 1e3 * last.profile.depth_max_m)
+          : std::string("ground: no stride gives a value");
   std::vector<std::uint32_t> nothing;
   for (std::size_t i = 0; i < data.strides.size(); ++i)
     if (adds_nothing(data, i)) nothing.push_back(data.strides[i].number);

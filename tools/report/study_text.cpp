@@ -8,12 +8,13 @@ namespace sandhopper {
 namespace {
 
 std::string element(std::string_view tag, std::string_view text) {
-  return text.empty() ? "" : fmt::format("<{0}>{1}</{0}>\n", tag, html::escaped(text));
+  return text.empty() ? "" : fmt::format("<{0}>{1}</{0}>\n", tag, html::escaped(without_marks(text)));
 }
 
 std::string cells(std::string_view tag, const std::vector<std::string>& texts) {
   std::string row = "<tr>";
-  for (const auto& text : texts) row += fmt::format("<{0}>{1}</{0}>", tag, html::escaped(text));
+  for (const auto& text : texts)
+    row += fmt::format("<{0}>{1}</{0}>", tag, html::escaped(without_marks(text)));
   return row + "</tr>\n";
 }
 
@@ -40,6 +41,10 @@ std::string plain(const StudyAnswer& answer) {
 }
 
 }  // namespace
+
+std::string without_marks(std::string_view text) {
+  return html::replaced(html::replaced(text, "⟦", ""), "⟧", "");
+}
 
 std::string study_text(const Study& study) {
   std::string text =

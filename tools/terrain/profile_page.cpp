@@ -9,7 +9,7 @@
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kNamedCurves = 12;  // more curves become one entry of the legend
+constexpr std::size_t kNamedCurves = 15;  // as many styles tell_apart() has; more curves share an entry
 constexpr std::size_t kDrawnCurves = 40;  // more curves would hide one another
 
 StudySeries line_of(const StrengthCurve& curve) {
@@ -43,7 +43,8 @@ StudySeries band(std::string label, std::span<const PooledDepth> depths, const s
   return series;
 }
 
-// Adds few trials by name, each in its own style; many become one entry.
+// Adds few trials by name, each in its own style. Many are divided, in their order, into five runs of trials,
+// each with a colour, so that a drift from trial to trial is seen.
 void add_curves(std::span<const StrengthCurve> curves, const std::string& label, StudyFigure& figure) {
   const std::size_t drawn = std::min(curves.size(), kDrawnCurves);
   if (drawn == 0) return;
@@ -56,17 +57,22 @@ void add_curves(std::span<const StrengthCurve> curves, const std::string& label,
     }
     return;
   }
-  auto all = line_of(curves.front());
-  for (std::size_t i = 1; i < drawn; ++i) {
-    const auto next = line_of(curves[i]);
-    all.x.push_back(NAN);
-    all.y.push_back(NAN);
-    all.x.insert(all.x.end(), next.x.begin(), next.x.end());
-    all.y.insert(all.y.end(), next.y.begin(), next.y.end());
+  constexpr std::size_t kRuns = 5;
+  for (std::size_t run = 0; run < kRuns; ++run) {
+    const std::size_t first = run * drawn / kRuns, end = (run + 1) * drawn / kRuns;
+    auto all = line_of(curves[first]);
+    for (std::size_t i = first + 1; i < end; ++i) {
+      const auto next = line_of(curves[i]);
+      all.x.push_back(NAN);
+      all.y.push_back(NAN);
+      all.x.insert(all.x.end(), next.x.begin(), next.x.end());
+      all.y.insert(all.y.end(), next.y.begin(), next.y.end());
+    }
+    all.label = fmt::format("{} {} to {}", label, trial_label(curves[first].trial),
+                            trial_label(curves[end - 1].trial));
+    tell_apart(all, run);
+    figure.series.push_back(std::move(all));
   }
-  all.label = drawn < curves.size() ? fmt::format("{} of {} {}", drawn, curves.size(), label)
-                                    : fmt::format("{} {}", drawn, label);
-  figure.series.push_back(std::move(all));
 }
 
 StudyFigure group_figure(const CurveGroup& group) {
@@ -83,22 +89,27 @@ StudyFigure group_figure(const CurveGroup& group) {
   if (!group.depths.empty() && group.depths.back().depth_m > all_m + group.curves.front().cell_m)
     figure.marks.push_back({1e3 * all_m, "all trials to here"});
   figure.note =
-      "Inner band: 95 % interval of the mean of the ground that the trials were drawn from. Outer band: 95 % "
-      "interval of one new trial's curve. Both hold depth by depth. They are drawn where at least three "
-      "trials reached; of two trials, where both did.";
+      "Dark band: 95 % interval of the mean over places of this ground; the line in it is the mean. Light "
+      "band: "
+      "one new trial lies in it, with 95 %. Both hold at each depth by itself, and are drawn where at least "
+      "three trials reached (with two trials, where both did).";
+  if (group.curves.size() > kDrawnCurves)
+    figure.note += fmt::format(" The first {} of {} trials are drawn.", kDrawnCurves, group.curves.size());
   if (!figure.marks.empty())
     figure.note += " Deeper than the dotted line only some trials are left, perhaps those on weaker ground.";
   return figure;
 }
 
 StudyTable group_table(const CurveGroup& group) {
-  StudyTable table{.title = "Strength at round depths",
-                   .columns = {"depth, mm", "trials", "force, N", "one new trial, N", "secant, N/m",
-                               "tangent, N/m", "sd between trials, N"},
-                   .text_columns = 0,
-                   .note =
-                       "Mean and, in brackets, its 95 % interval with the trial as the unit. Secant: force "
-                       "over depth. Tangent: slope of the curve at that depth."};
+  StudyTable table{
+      .title = "Strength at round depths",
+      .columns = {"depth, mm", "trials", "force, N", "one new trial, N", "secant, N/m", "tangent, N/m",
+                  "sd of force between trials, N"},
+      .text_columns = 0,
+      .note =
+          "Mean over trials and, in brackets, its 95 % interval. One new trial: 95 % interval of the "
+          "next trial's force. Secant: force over depth. Tangent: slope of the curve at that "
+          "depth. sd: standard deviation. –: one trial gives no interval."};
   for (const double depth_m : told_depths_m(group)) {
     const auto& p = *group.at(depth_m);
     table.rows.push_back(
@@ -127,9 +138,10 @@ StudyFigure prediction_figure(const ProfilePrediction& p, std::span<const Streng
 
 StudySection section_of(const ProfileConclusion& conclusion) {
   StudySection section{.title = "Strength of the ground over depth"};
-  section.items.emplace_back(std::string(
-      "Each trial's force over depth is found by itself, as the firmware does after a stride. The trials are "
-      "then put together with the trial as the unit: how much they differ is estimated at every depth."));
+  section.items.emplace_back(
+      std::string("The force over depth is estimated from each trial by itself, as the firmware does after a "
+                  "stride. Then the "
+                  "trials are pooled at every depth. Intervals come from how much the trials differ."));
   for (const auto& group : conclusion.groups) {
     if (group.depths.empty()) {
       section.items.emplace_back(group_title(group) + ". " + bound_text(group));

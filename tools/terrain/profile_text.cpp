@@ -52,7 +52,7 @@ std::string in_interval(double value, double low, double high) {
 }
 
 std::string limits(double low, double high, double scale) {
-  if (!std::isfinite(low) || !std::isfinite(high)) return "[–]";
+  if (!std::isfinite(low) || !std::isfinite(high)) return "–";
   return fmt::format("[{}, {}]", in_interval(scale * low, scale * low, scale * high),
                      in_interval(scale * high, scale * low, scale * high));
 }
@@ -141,8 +141,9 @@ std::vector<double> told_depths_m(const CurveGroup& group) {
 
 std::string pooled_text(const PooledValue& v, double scale) {
   if (std::isnan(v.value)) return "–";
-  return fmt::format("{} {}", in_interval(scale * v.value, scale * v.mean_low, scale * v.mean_high),
-                     limits(v.mean_low, v.mean_high, scale));
+  const auto value = in_interval(scale * v.value, scale * v.mean_low, scale * v.mean_high);
+  if (!std::isfinite(v.mean_low) || !std::isfinite(v.mean_high)) return value;  // one trial has no interval
+  return value + " " + limits(v.mean_low, v.mean_high, scale);
 }
 
 std::string new_trial_text(const PooledValue& v, double scale) {
@@ -176,8 +177,9 @@ std::string shapes_text(const CurveGroup& g) {
 std::string left_out_text(const CurveGroup& g) {
   if (g.left_out.empty()) return "";
   return fmt::format(
-      "Check: each trial left out in turn lies in the band of one new trial that the other {} give at {}; "
-      "{}.",
+      "Check: each trial in turn was compared with the band that the other {} give for one new trial. It "
+      "lies "
+      "inside at {}; {}.",
       g.curves.size() - 1, inside_text(g.left_out), width_text(g.left_out));
 }
 
@@ -236,7 +238,7 @@ std::string profile_answer(const CurveGroup& g) {
                        mm_text(told), short_number(force.value), foot);
   return fmt::format(
       "At {} mm of depth the ground bears {} N, 95 % interval {} to {} N ({}, mean of {}); "
-      "one new trial: {} to {} N.",
+      "one new trial lies between {} and {} N with 95 %.",
       mm_text(told), in_interval(force.value, force.mean_low, force.mean_high),
       in_interval(force.mean_low, force.mean_low, force.mean_high),
       in_interval(force.mean_high, force.mean_low, force.mean_high), foot, trials_text(force.trials),

@@ -6,11 +6,20 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/report/digits.hpp"
+
 namespace sandhopper {
 namespace {
 
 std::string interval(const ProfilePoint& p, int digits) {
   return fmt::format("{:.{}f}  [{:.{}f}, {:.{}f}]", p.value, digits, p.low(), digits, p.high(), digits);
+}
+
+// "46400 N/m  [42400, 50700]": no digit is shown that nobody knows.
+std::string to_two_digits_of_interval(const SummaryValue& k) {
+  const double half = 0.5 * (k.ci95_high - k.ci95_low);
+  const auto text = [half](double value) { return digits_by(value, half).value_or(plain_number(value, 3)); };
+  return fmt::format("{} N/m  [{}, {}]", text(k.value), text(k.ci95_low), text(k.ci95_high));
 }
 
 }  // namespace
@@ -39,10 +48,10 @@ std::vector<std::string> profile_lines(const StrengthProfile& p, const GroundSum
   }
   const auto& reload = g.reloading_N_per_m;
   if (reload.ci95_low > 0.0)
-    lines.push_back(std::isfinite(reload.ci95_high)
-                        ? fmt::format("  reloading in the crater {:.0f} N/m  [{:.0f}, {:.0f}]", reload.value,
-                                      reload.ci95_low, reload.ci95_high)
-                        : fmt::format("  reloading in the crater at least {:.0f} N/m", reload.ci95_low));
+    lines.push_back(
+        std::isfinite(reload.ci95_high)
+            ? "  reloading in the crater " + to_two_digits_of_interval(reload)
+            : fmt::format("  reloading in the crater at least {} N/m", plain_number(reload.ci95_low, 2)));
   return lines;
 }
 

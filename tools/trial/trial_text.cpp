@@ -17,11 +17,10 @@ struct Named {
   const char* text;
   ReportStiffness ReportStride::*member;
 };
-constexpr std::array<Named, 4> kTreatments{
-    {{"qs_ols", "quasi-static + OLS", &ReportStride::quasi_static_ols},
-     {"mo_ols", "momentum observer + OLS", &ReportStride::observer_ols},
-     {"mo_wls", "momentum observer + WLS", &ReportStride::observer_wls},
-     {"joint", "joint fit", &ReportStride::joint}}};
+constexpr std::array<Named, 4> kTreatments{{{"qs_ols", "quasi-static, OLS", &ReportStride::quasi_static_ols},
+                                            {"mo_ols", "observer, OLS", &ReportStride::observer_ols},
+                                            {"mo_wls", "observer, weighted", &ReportStride::observer_wls},
+                                            {"joint", "joint fit", &ReportStride::joint}}};
 
 std::string stiffness_line(const char* name, const ReportStiffness& k) {
   if (!std::isfinite(k.value_N_per_m))

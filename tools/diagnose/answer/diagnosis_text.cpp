@@ -24,6 +24,11 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+// A value in the unit of its channel, as in the tables beside it: a page has one unit for one quantity.
+std::string in_unit(double value, const std::string& unit) {
+  return plain_number(value, 3) + (unit.empty() ? "" : " " + unit);
+}
+
 // At most "99 %": the rest is never exactly zero.
 std::string percent(double share) { return fmt::format("{:.0f} %", std::min(99.0, 100.0 * share)); }
 
@@ -52,8 +57,14 @@ std::string where_text(const Where& w) {
   return text + fmt::format(", p = {:.1g}\n", w.p_value);
 }
 
-std::string error_text(const ChannelFit& f) {
+// With nothing found, before and after are the same fit.
+std::string error_text(const ChannelFit& f, bool changed) {
   const auto unit = quantity_of(f.channel).unit;
+  if (!changed)
+    return fmt::format(
+        "error  {}: {} on held-out trials (rms {}; noise floor {}, noise of a sample {}{}{})\n", f.channel,
+        times_the_floor(f.heldout.before, f.floor), plain_number(f.heldout.before, 4),
+        plain_number(f.floor, 4), plain_number(f.noise, 4), unit.empty() ? "" : ", all in ", unit);
   return fmt::format(
       "error  {}: {} on held-out trials (rms {} and {}; noise floor {}, noise of a sample {}{}{})\n",
       f.channel, times_the_floor(f.heldout, f.floor), plain_number(f.heldout.before, 4),
@@ -78,11 +89,12 @@ std::string absent_text(const std::vector<Bound>& absent) {
   return text + "\n";
 }
 
-// The listed effects; those that are more likely not there than there follow as a guess.
+// The listed effects; those that are more likely not there than there, or whose interval holds zero, follow
+// as a guess.
 std::string names_in_words(const Diagnosis& d) {
   std::vector<std::string> likely, guesses;
   for (const auto& e : d.effects)
-    if (!e.is_unknown()) (e.probability < 0.5 ? guesses : likely).push_back(e.id);
+    if (!e.is_unknown()) (e.probability < 0.5 || e.may_be_zero() ? guesses : likely).push_back(e.id);
   if (guesses.empty()) return joined(likely);
   return likely.empty() ? "perhaps " + joined(guesses) : joined(likely) + ", perhaps " + joined(guesses);
 }
@@ -142,19 +154,19 @@ std::string times_the_floor(double error, double floor) {
 std::string FoundParameter::limit_in_words() const {
   if (!limit) return "";
   return fmt::format("at its limit of {}: the true value may lie beyond",
-                     measured(*limit, quantity_of(name).unit));
+                     in_unit(*limit, quantity_of(name).unit));
 }
 
 std::string SensorNoise::in_words() const {
   const auto unit = quantity_of(channel).unit;
-  std::string text = diagnose::measured(used, unit);
+  std::string text = in_unit(used, unit);
   if (stated > 0.0)
-    text += fmt::format(", {} times the {} stated{}. From sample to sample it scatters by {}: ",
-                        two_digits(times()), diagnose::measured(stated, unit),
-                        said_by.empty() ? "" : " (" + said_by + ")", diagnose::measured(measured, unit));
+    text += fmt::format(
+        ", {} times the {} stated{}. From sample to sample it scatters by {}: ", two_digits(times()),
+        in_unit(stated, unit), said_by.empty() ? "" : " (" + said_by + ")", in_unit(measured, unit));
   else
     text += fmt::format(", {} times the {} by which it scatters from sample to sample: ", two_digits(times()),
-                        diagnose::measured(measured, unit));
+                        in_unit(measured, unit));
   text += is_sensor_worse ? "the sensor is worse than stated."
                           : "the rest is slow, so the model leaves a remainder, or the sensor drifts.";
   return text + " Errors, intervals and bounds rest on the larger noise.";
@@ -174,16 +186,16 @@ std::string remainder_text(const Diagnosis& d) {
   const auto share = [&](double of) { return fmt::format("{} %", two_digits(100.0 * left / of)); };
   if (left == 0.0) return fmt::format("{}: what remains is not larger than the noise floor.", f.channel);
   std::string text =
-      fmt::format("{}: what remains is {} rms beyond the noise floor", f.channel, measured(left, unit));
-  if (f.range > 0.0) text += fmt::format(", {} of the range of {}", share(f.range), measured(f.range, unit));
+      fmt::format("{}: what remains is {} rms beyond the noise floor", f.channel, in_unit(left, unit));
+  if (f.range > 0.0) text += fmt::format(", {} of the range of {}", share(f.range), in_unit(f.range, unit));
   if (d.first && d.first->error.contains(f.channel) && d.first->error.at(f.channel) > 0.0) {
     const double of_first = d.first->error.at(f.channel);
     return text + fmt::format(", and {} of the {} that the first model left ({}).", share(of_first),
-                              measured(of_first, unit), d.first->file);
+                              in_unit(of_first, unit), d.first->file);
   }
   const bool improved = std::ranges::any_of(d.effects, [](const auto& e) { return !e.is_unknown(); });
   if (improved && before > 0.0)
-    text += fmt::format(", and {} of the {} before", share(before), measured(before, unit));
+    text += fmt::format(", and {} of the {} before", share(before), in_unit(before, unit));
   return text + ".";
 }
 
@@ -205,9 +217,9 @@ std::string headline(const Diagnosis& d) {
     return fmt::format(
         "Nothing is missing: {} trials agree with the simulation within their own repeatability.", d.trials);
   if (d.verdict == Verdict::insufficient_data)
-    return fmt::format("{} trials are too little to say.", d.trials);
+    return fmt::format("{} trials are too few to say what is missing.", d.trials);
   if (d.verdict == Verdict::insufficient_time)
-    return "The limit of time ended the search before anything was known: give it more (--limit-s).";
+    return "The limit of time ended the search before anything was known: give it more time (--limit-s).";
   if (d.verdict == Verdict::unknown_physics)
     return d.first ? "Something is left that is on no list, beside what the corrected model holds. " +
                          remainder_text(d)
@@ -219,15 +231,19 @@ std::string headline(const Diagnosis& d) {
   const std::string names = names_in_words(d);
   const auto is_name = [](const FoundEffect& e) { return !e.is_unknown(); };
   if (!names.empty() &&
-      std::ranges::all_of(d.effects | std::views::filter(is_name), &FoundEffect::may_be_zero))
-    return fmt::format("Something may be missing: {}; its 95 % interval holds zero.", names);
+      std::ranges::all_of(d.effects | std::views::filter(is_name), &FoundEffect::may_be_zero)) {
+    std::vector<std::string> ids;
+    for (const auto& e : d.effects | std::views::filter(is_name)) ids.push_back(e.id);
+    return fmt::format("Something may be missing: {}; {} 95 % interval holds zero.", joined(ids),
+                       ids.size() > 1 ? "each" : "its");
+  }
   if (d.detail == Detail::data_fault) return "The physics agrees; the recording has faults.";
   if (d.detail == Detail::one_of_class)
     return "Something is missing; these recordings leave more than one explanation.";
   if (d.detail == Detail::known_and_rest)
     return fmt::format(
-        "Something is missing: {}; that closes {} of the gap between simulation and recording, "
-        "and what is left is on no list.",
+        "Something is missing: {}. This closes {} of the gap between simulation and recordings; the rest is "
+        "on no list.",
         names, percent(d.gap_closed));
   return "Something is missing: " + names + ".";
 }
@@ -250,7 +266,8 @@ std::string to_text(const Diagnosis& d) {
   if (const auto limit = limit_text(d); !limit.empty()) text += "limit  " + limit + "\n";
   for (const auto& e : d.effects) text += effect_text(e);
   for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
-  for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i) text += error_text(d.fits[i]);
+  for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i)
+    text += error_text(d.fits[i], !d.effects.empty());
   if (const auto left = remainder_text(d); !left.empty() && !told_in_headline(d))
     text += "left   " + left + "\n";
   if (const auto below = below_the_floor(d); !below.empty()) text += "       " + below + "\n";

@@ -62,9 +62,10 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
   FoundEffect effect;
   effect.id = "unknown@" + port;
   effect.port = port;
-  effect.statement =
-      fmt::format("Something that is on no list acts at {}: it goes with {}, {:.0f} % of the gap.", port,
-                  gain.family.variable, 100.0 * share);
+  effect.statement = fmt::format(
+      "Something that is on no list acts at {}: it depends on {} and takes {:.0f} % of the gap between "
+      "simulation and recordings.",
+      port, gain.family.variable, 100.0 * share);
   effect.equation =
       fmt::format("{} += f({})", quantity_of(quantity).words, quantity_of(gain.family.variable).words);
   effect.mass = mass_of_unknown(gain.p_value);

@@ -42,6 +42,14 @@ constexpr std::array<std::pair<const char*, const char*>, 28> kUnits{{{"_rad_per
                                                                       {"_s", "s"},
                                                                       {"_J", "J"}}};
 
+// Names of keys that are not the words for them.
+constexpr std::array<std::pair<const char*, const char*>, 5> kWords{
+    {{"t", "time"},
+     {"accel", "acceleration"},
+     {"accel bias", "acceleration bias"},
+     {"bed stiffness relative", "bed stiffness, share"},
+     {"while it bears", "share while the bed still bears"}}};
+
 // The head of an order: takes the words and values that it names out of a set-up.
 class Order {
  public:
@@ -137,6 +145,8 @@ Quantity quantity_of(const std::string& key) {
       break;
     }
   q.words = in_words(q.words);
+  for (const auto& [key_words, words] : kWords)
+    if (q.words == key_words) q.words = words;
   return q;
 }
 

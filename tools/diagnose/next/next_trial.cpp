@@ -208,11 +208,12 @@ void map_further(const Problem& problem, const PlannedTrials& planned, const Sea
                       knots);
   });
   take(planned[choice.trial], "map", next);
+  const auto width = [](double worth) { return std::round(100.0 * std::exp2(-0.5 * worth)); };
+  const double best = width(choice.worth), usual = width(median(choice.all));
   next.why = fmt::format(
-      "Measures what acts at {} better: its band along {} narrows to {:.0f} % of its width; with an average "
-      "trial, to {:.0f} %.",
-      rest.family.port, rest.family.variable, 100.0 * std::exp2(-0.5 * choice.worth),
-      100.0 * std::exp2(-0.5 * median(choice.all)));
+      "Measures what acts at {} better: its band along {} narrows to {:.0f} % of its width, {}.",
+      rest.family.port, rest.family.variable, best,
+      best < usual ? fmt::format("with an average trial to {:.0f} %", usual) : "as with any other trial");
 }
 
 // "bound": the trial that reduces the widest bound most. Candidates that the recordings do not bound at all
@@ -233,8 +234,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   const Candidate& candidate = problem.candidates[widest->candidate];
   if (!few && typicals < kNarrow) {
     next.why = fmt::format(
-        "None needed: everything this plant can have is excluded beyond {} times its typical size.",
-        plain_number(typicals, 3));
+        "None needed: each effect by itself is excluded (95 %) beyond {} times its typical size.", kNarrow);
     return;
   }
   const Point& point = search.best().fit.point;
@@ -262,17 +262,14 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
                       {k - 1});
   });
   if (!few && choice.worth < kWorthATrial) {
-    next.why = fmt::format(
-        "None: no trial like these would exclude more. The widest bound is that of {}, {} times "
-        "its typical size.",
-        candidate.label(), plain_number(typicals, 3));
+    next.why = fmt::format("None: no trial like these would exclude more. The widest bound is that of {}.",
+                           candidate.label());
     return;
   }
   take(planned[choice.trial], "bound", next);
-  next.why = fmt::format(
-      "{} widest bound is that of {}, {} times its typical size; this trial narrows it to {} times.",
-      few ? "At least five trials are needed to know how far they repeat. The" : "The", candidate.label(),
-      plain_number(typicals, 3), plain_number(typicals * std::exp2(-0.5 * choice.worth), 3));
+  next.why = fmt::format("{} widest bound is that of {}; this trial narrows it to {} % of its width.",
+                         few ? "At least five trials are needed to know how far they repeat. The" : "The",
+                         candidate.label(), plain_number(100.0 * std::exp2(-0.5 * choice.worth), 2));
 }
 
 // "repeat": one of the recorded trials, after the faulty sensor was repaired.

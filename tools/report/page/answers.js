@@ -4,7 +4,7 @@ function showAnswers(study) {
   const answers = document.getElementById('answers');
   verdict.hidden = !study.verdict;
   answers.hidden = !study.answers.length;
-  verdict.textContent = setText(study.verdict);
+  verdict.append(...withMath(study.verdict));
   verdict.className = study.verdict_mark;
   for (const answer of study.answers) {
     const box = element('section', { className: 'answer' }, element('h2', {}, answer.heading));

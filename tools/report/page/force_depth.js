@@ -73,6 +73,7 @@ class ForceDepth {
         view.top = Math.max(view.top, point[1]);
       }
     }
+    view.top = Math.max(view.top, this.band.top(this.strides));
     const pad = (low, high) => 0.05 * (high - low);
     const [dx, dy] = [pad(view.left, view.right), pad(view.bottom, view.top)];
     this.view = { left: view.left - dx, right: view.right + dx, bottom: view.bottom - dy, top: view.top + dy };
@@ -115,18 +116,20 @@ class ForceDepth {
     context.strokeStyle = theme.color('grid');
     context.fillStyle = theme.color('quiet');
     context.textAlign = 'center';
-    for (const depth of roundTicks(view.left, view.right, box.w / 60)) {
-      const x = Math.round(this.x(depth)) + 0.5;
+    const depths = roundTicks(view.left, view.right, box.w / 60);
+    tickLabels(depths).forEach((label, i) => {
+      const x = Math.round(this.x(depths[i])) + 0.5;
       context.strokeRect(x, box.y, 0, box.h);
-      context.fillText(String(depth), x, box.y + box.h + 14);
-    }
+      context.fillText(label, x, box.y + box.h + 14);
+    });
     context.fillText('depth, mm', box.x + box.w / 2, box.y + box.h + 29);
     context.textAlign = 'right';
-    for (const force of roundTicks(view.bottom, view.top, box.h / 34)) {
-      const y = Math.round(this.y(force)) + 0.5;
+    const forces = roundTicks(view.bottom, view.top, box.h / 34);
+    tickLabels(forces).forEach((label, i) => {
+      const y = Math.round(this.y(forces[i])) + 0.5;
       context.strokeRect(box.x, y, box.w, 0);
-      context.fillText(String(force), box.x - 6, y + 4);
-    }
+      context.fillText(label, box.x - 6, y + 4);
+    });
     context.save();
     context.translate(11, box.y + box.h / 2);
     context.rotate(-Math.PI / 2);

@@ -16,6 +16,15 @@ class ProfileBand {
     return strides.map(stride => stride.profile).filter(Boolean).pop();
   }
 
+  // Largest force of what is drawn as known, so that the figure holds it.
+  top(strides) {
+    const profile = ProfileBand.last(strides);
+    if (!profile) return 0;
+    const most = (depths, forces) => forces.reduce((high, force, i) => (depths[i] <= profile.to_m ? Math.max(high, force) : high), 0);
+    return Math.max(this.curve.shown ? most(profile.depth_m, profile.force_N) : 0,
+      this.truth && this.truthEntry.shown ? most(this.truth.depth_m, this.truth.force_N) : 0);
+  }
+
   draw(context, chart, strides) {
     const profile = ProfileBand.last(strides);
     if (!profile) return;

@@ -30,12 +30,14 @@ function drawIntervals(svg, strides, known, treatments, width) {
   svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
   svg.style.height = `${height}px`;
   svg.replaceChildren();
-  for (const tick of roundTicks(low - pad, high + pad, width / 60)) {
+  const ticks = roundTicks(low - pad, high + pad, width / 60);
+  tickLabels(ticks).forEach((label, i) => {
+    const tick = ticks[i];
     svg.append(
       svgElement('line', { x1: x(tick), x2: x(tick), y1: 4, y2: height - 22, stroke: 'var(--grid)' }),
-      svgText(tick, { x: x(tick), y: height - 8, 'text-anchor': 'middle' }),
+      svgText(label, { x: x(tick), y: height - 8, 'text-anchor': 'middle' }),
     );
-  }
+  });
   strides.forEach((stride, i) => {
     const top = 8 + i * row * 4;
     if (row > 7 || i % Math.ceil(11 / (4 * row)) === 0) {

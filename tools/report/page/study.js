@@ -1,14 +1,12 @@
 // Builds the page of a study: contents, sections, paragraphs, tables and figures.
-// Letters of an equation that fits a column; it is not broken.
-const kShortEquation = 24;
 const study = JSON.parse(document.getElementById('data').textContent);
 theme.start(document.getElementById('theme'));
 
 for (const [label, text] of study.facts) {
-  document.getElementById('facts').append(element('div', {}, element('dt', {}, label), element('dd', {}, setText(text))));
+  document.getElementById('facts').append(element('div', {}, element('dt', {}, label), element('dd', {}, ...withMath(text))));
 }
 showAnswers(study);
-for (const text of study.warnings) document.getElementById('notes').append(element('p', {}, setText(text)));
+for (const text of study.warnings) document.getElementById('notes').append(element('p', {}, ...withMath(text)));
 
 study.sections.forEach((section, i) => {
   const id = `section-${i + 1}`;
@@ -30,7 +28,7 @@ function fillSection(section, body) {
   let grid = null;
   section.items.forEach((item, i) => {
     if (item.kind !== 'figure') grid = null;
-    if (item.kind === 'text') body.append(element('p', {}, setText(item.text)));
+    if (item.kind === 'text') body.append(element('p', {}, ...withMath(item.text)));
     if (item.kind === 'table') body.append(tableOf(item));
     if (item.kind !== 'figure') return;
     if (!grid) body.append(grid = element('div', { className: 'figures' }));
@@ -47,7 +45,7 @@ function shadeOf(share) {
 
 function tableOf(table) {
   const cell = (tag, text, i, shade) => {
-    const made = element(tag, { className: i < table.text_columns ? 'text' : String(text).includes(' ') ? '' : 'one' }, ...(tag === 'td' && table.columns[i] === 'equation' ? mathOf(text) : [setText(text)]));
+    const made = element(tag, { className: i < table.text_columns ? 'text' : String(text).includes(' ') ? '' : 'one' }, ...(tag === 'td' && table.columns[i] === 'equation' ? mathOf(text) : breakable(withMath(text))));
     if (tag === 'td' && table.columns[i] === 'equation' && text.length <= kShortEquation) made.classList.add('one');
     if (shade) made.style.background = `linear-gradient(90deg, ${shadeOf(shade[0])} 50%, ${shadeOf(shade[1])} 50%)`;
     return made;
@@ -60,11 +58,11 @@ function tableOf(table) {
   })));
   const rows = table.rows.map((row, i) => element('tr', { className: table.row_marks[i] ?? '' }, ...row.map((text, j) => cell('td', text, j, table.shades[i]?.[j]))));
   const made = element('div', { className: 'table' },
-    ...(table.title ? [element('h3', {}, table.title)] : []),
+    ...(table.title ? [element('h3', {}, ...withMath(table.title))] : []),
     rows.length
       ? element('div', { className: table.whole ? 'scroll whole' : 'scroll' }, element('table', {}, head, element('tbody', {}, ...rows)))
       : element('p', { className: 'note' }, 'No entry.'),
-    ...(table.note ? [element('p', { className: 'note' }, setText(table.note))] : []));
+    ...(table.note ? [element('p', { className: 'note' }, ...withMath(table.note))] : []));
   if (rows.length) fitTable(made.querySelector('.scroll'));
   return made;
 }

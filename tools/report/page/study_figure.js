@@ -10,17 +10,17 @@ class StudyFigure {
     this.figure = figure;
     this.height = 330;
     this.width = width;
-    const caption = element('figcaption', {}, element('b', {}, figure.title));
+    const caption = element('figcaption', {}, element('b', {}, ...withMath(figure.title)));
     panel.append(caption);
     this.groups = figure.series.map(() => svgElement('g'));
     if (figure.series.length > 1) {
       const entries = figure.series.map(series => ({ ...series, style: StudyFigure.swatch(series) }));
-      new Legend(caption, entries, (i, shown) => { figure.series[i].shown = shown; this.draw(); }, false);
+      new Legend(caption, entries.map(entry => Object.assign(entry, { label: withMath(entry.label) })), (i, shown) => { figure.series[i].shown = shown; this.draw(); }, false);
     }
-    this.svg = svgElement('svg', { viewBox: `0 0 ${width} ${this.height}`, role: 'img', 'aria-label': figure.title });
+    this.svg = svgElement('svg', { viewBox: `0 0 ${width} ${this.height}`, role: 'img', 'aria-label': withoutMath(figure.title) });
     this.reading = element('output');
     panel.append(this.svg, this.reading);
-    if (figure.note) panel.append(element('p', {}, setText(figure.note)));
+    if (figure.note) panel.append(element('p', {}, ...withMath(figure.note)));
     this.svg.onpointermove = event => this.hover(event);
     this.svg.onpointerleave = () => this.point(null);
     this.draw();
@@ -68,7 +68,7 @@ class StudyFigure {
     const h = this.height - margin.top - margin.bottom;
     if (this.figure.marks.length) this.yRange[1] += ((this.yRange[1] - this.yRange[0]) * StudyFigure.kWordHeight) / (h - StudyFigure.kWordHeight);
     // Space for the tick labels, to the right of the axis' name.
-    const longest = Math.max(0, ...StudyFigure.ticks(this.yRange, log_y, h / 38).map(tick => String(tick).length));
+    const longest = Math.max(0, ...StudyFigure.labels(StudyFigure.ticks(this.yRange, log_y, h / 38), log_y).map(label => label.length));
     const left = Math.max(48, 30 + StudyFigure.kDigit * longest);
     this.box = { x: left, y: margin.top, w: this.width - left - margin.right, h };
   }
@@ -105,26 +105,33 @@ class StudyFigure {
     return all;
   }
 
+  // On a logarithmic axis each tick has its own decimals: 0.5, 10, 200.
+  static labels(ticks, log) {
+    return log ? ticks.flatMap(tick => tickLabels([tick])) : tickLabels(ticks);
+  }
+
   drawAxes() {
     const { box, figure } = this;
     const grid = { stroke: 'var(--grid)' };
     const names = figure.categories;
-    const xs = names.length ? names.map((_, i) => i) : StudyFigure.ticks(this.xRange, figure.log_x, box.w / 70);
+    const xs = names.length ? names.map((_, i) => i) : StudyFigure.ticks(this.xRange, figure.log_x, box.w / 58);
+    const labels = names.length ? names : StudyFigure.labels(xs, figure.log_x);
     const skip = names.length ? Math.ceil(names.length / (box.w / (8 * Math.max(...names.map(name => name.length)) + 8))) : 1;
     xs.forEach((tick, i) => {
       const x = this.x(tick);
       this.svg.append(svgElement('line', { x1: x, x2: x, y1: box.y, y2: box.y + box.h, ...grid }));
-      if (i % skip === 0) this.svg.append(svgText(names.length ? names[i] : tick, { x, y: box.y + box.h + 16, 'text-anchor': 'middle' }));
+      if (i % skip === 0) this.svg.append(svgText(labels[i], { class: 'tick-x', x, y: box.y + box.h + 16, 'text-anchor': 'middle' }));
     });
-    for (const tick of StudyFigure.ticks(this.yRange, figure.log_y, box.h / 38)) {
-      const y = this.y(tick);
+    const ys = StudyFigure.ticks(this.yRange, figure.log_y, box.h / 38);
+    StudyFigure.labels(ys, figure.log_y).forEach((label, i) => {
+      const y = this.y(ys[i]);
       this.svg.append(svgElement('line', { x1: box.x, x2: box.x + box.w, y1: y, y2: y, ...grid }));
-      this.svg.append(svgText(tick, { x: box.x - 7, y: y + 4, 'text-anchor': 'end' }));
-    }
+      this.svg.append(svgText(label, { class: 'tick-y', x: box.x - 7, y: y + 4, 'text-anchor': 'end' }));
+    });
     this.svg.append(
       svgElement('rect', { x: box.x, y: box.y, width: box.w, height: box.h, fill: 'none', stroke: 'var(--rule)' }),
-      svgText(figure.x_label, { x: box.x + box.w / 2, y: this.height - 8, 'text-anchor': 'middle' }),
-      svgText(figure.y_label, { transform: `translate(14 ${box.y + box.h / 2}) rotate(-90)`, 'text-anchor': 'middle' }),
+      svgEquation(figure.x_label, { x: box.x + box.w / 2, y: this.height - 8, 'text-anchor': 'middle' }),
+      svgEquation(figure.y_label, { transform: `translate(14 ${box.y + box.h / 2}) rotate(-90)`, 'text-anchor': 'middle' }),
     );
   }
 
@@ -133,8 +140,8 @@ class StudyFigure {
     return [
       svgElement('line', { x1: x, x2: x, y1: this.box.y, y2: this.box.y + this.box.h, stroke: 'var(--quiet)', 'stroke-dasharray': '2 3' }),
       x > this.box.x + 0.7 * this.box.w
-        ? svgText(word, { x: x - 4, y: this.box.y + 13, 'text-anchor': 'end' })
-        : svgText(word, { x: x + 4, y: this.box.y + 13 }),
+        ? svgEquation(word, { x: x - 4, y: this.box.y + 13, 'text-anchor': 'end' })
+        : svgEquation(word, { x: x + 4, y: this.box.y + 13 }),
     ];
   }
 
@@ -207,6 +214,6 @@ class StudyFigure {
     const shown = value => Number(value.toPrecision(4)).toString();
     const name = this.figure.categories[Math.round(series.x[i])] ?? shown(series.x[i]);
     const interval = series.low.length && series.low[i] !== null ? ` (${shown(series.low[i])} to ${shown(series.high[i])})` : '';
-    this.reading.textContent = `${series.label}: ${name}, ${shown(series.y[i])}${interval}`;
+    this.reading.textContent = `${withoutMath(series.label)}: ${name}, ${shown(series.y[i])}${interval}`;
   }
 }

@@ -159,7 +159,7 @@ StudyAnswer how_sure(const Diagnosis& d) {
                     "not fitted to ({}). It takes {:.0f} % of the gap between simulation and recording.",
                     d.unknown.front().curve.variable, d.unknown.front().port,
                     p_text(d.unknown.front().p_value), 100.0 * d.unknown.front().share));
-  else if (!classes && d.detail == Detail::known)
+  else if (!classes && d.detail == Detail::known && d.stopped_in.empty())
     box.lines.emplace_back(Style::text, "No other effect explains these recordings as well.");
   if (d.detail == Detail::data_fault) box.lines.emplace_back(Style::text, "Seen in the samples themselves.");
   return box;
@@ -210,7 +210,7 @@ StudyAnswer what_next(const Diagnosis& d) {
     return box;
   }
   box.lines.emplace_back(Style::lead, d.next.order);
-  if (d.next.beyond_recorded)
+  if (d.next.beyond_recorded && d.next.reason().find("beyond the recorded") == std::string::npos)
     box.lines.emplace_back(Style::quiet, "Beyond the recorded set-ups; the campaign states no limit.");
   box.lines.emplace_back(Style::text, d.next.reason());
   return box;

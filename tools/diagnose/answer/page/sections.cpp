@@ -102,6 +102,12 @@ StudySection noise_section(const Diagnosis& d) {
   return section;
 }
 
+// A share in per cent: "84", "< 1", "> 99".
+std::string in_percent(double share) {
+  if (share > 0.995 && share < 1.0) return ">\u00a099";
+  return share > 0.0 && share < 0.005 ? "<\u00a01" : fmt::format("{:.0f}", 100.0 * share);
+}
+
 std::string name_of(const FoundEffect& e) { return e.id + (e.channel.empty() ? "" : "\n" + e.channel); }
 
 std::string mark_of(const FoundEffect& e) {
@@ -135,22 +141,23 @@ StudyTable sizes_table(const Diagnosis& d) {
 
 StudySection effects_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"effect",
-                   "what it says",
-                   "equation",
-                   "probability",
-                   "share of the gain, in held-out error",
-                   "times the typical size",
-                   "p"};
+  table.columns = {
+      "effect", "what it says", "equation", "probability", "share of the gain, %", "times the typical size",
+      "p"};
   table.text_columns = 3;
   table.whole = true;
   for (const auto& e : d.effects) {
     table.rows.push_back({name_of(e), e.statement, e.equation, fmt::format("{:.2f}", e.probability),
-                          fmt::format("{:.2f}", e.heldout_gain),
-                          e.typicals > 0.0 ? plain_number(e.typicals, 2) : "",
+                          in_percent(e.heldout_gain), e.typicals > 0.0 ? plain_number(e.typicals, 2) : "",
                           e.p_value < 1.0 ? probability_text(e.p_value) : ""});
     table.row_marks.push_back(mark_of(e));
   }
+  table.note =
+      "Equation: += adds to the force, torque or reading that the belief gives. Probability: the chance that "
+      "this effect is what is missing. Share of the gain: the part of the whole gain in held-out error that "
+      "is lost if this effect alone is left out; effects that can stand for one another have small shares. "
+      "Typical size: a size at which the effect would matter on this rig. p: the chance to see such a gain "
+      "if nothing were missing.";
   StudyTable sizes = sizes_table(d);
   StudySection section{"What was found", {table}};
   if (!sizes.rows.empty()) section.items.emplace_back(std::move(sizes));
@@ -179,7 +186,9 @@ StudySection unknown_section(const Diagnosis& d) {
     }
     const auto q = quantity_of(u.curve.variable);
     StudyFigure figure{"What acts at " + u.port, q.label(), quantity_of(u.quantity).label(), {band}};
-    figure.note = "Straight between knots; drawn only where recordings have been.";
+    figure.note =
+        "The line is the estimate, the band its 95 % interval. Drawn where there are recordings; straight "
+        "between the points at which it is estimated.";
     section.items.emplace_back(figure);
   }
   return section;
@@ -187,14 +196,14 @@ StudySection unknown_section(const Diagnosis& d) {
 
 StudySection where_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the change", "p", "trials"};
+  table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the change, %", "p", "trials"};
   table.text_columns = 4;
   constexpr std::size_t kMostRows = 15;  // A hopper has up to 84 cells; the first ones tell most.
   for (const auto& w : d.where | std::views::take(kMostRows))
     table.rows.push_back({w.channel, w.phase_in_words(), w.port, quantity_of(w.coordinate).label(),
                           to_digits_of(w.range_low, w.range_high - w.range_low),
                           to_digits_of(w.range_high, w.range_high - w.range_low),
-                          fmt::format("{:.2f}", w.share_of_excess), probability_text(w.p_value),
+                          in_percent(w.share_of_excess), probability_text(w.p_value),
                           fmt::format("{}", w.trials.size())});
   table.note =
       "Channels and phases, or thirds of a trial, in which what was found changes the recordings by more "
@@ -266,8 +275,12 @@ StudySection remarks_section(const Diagnosis& d, const PageFacts& facts) {
 
 StudySection log_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"set of effects, closest fit first"};
+  table.columns = {"step of the search"};
   for (const auto& line : d.log) table.rows.push_back({line});
+  table.note =
+      "For readers who want to follow the search. Deviance: squared residuals over their variances; a gain "
+      "of 10 is a difference that noise hardly makes. Criterion: deviance with a price for each parameter; "
+      "the set with the least wins, if its effects are needed. Linear: by the derivative, before a fit.";
   StudySection section{"What was tried", {table}};
   section.folded = true;
   return section;

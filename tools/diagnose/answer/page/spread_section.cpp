@@ -11,6 +11,22 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Label and scale of a fitted number, as the sentences about it (spread_text) have it: shares in %, short
+// lengths in mm.
+struct Shown {
+  explicit Shown(const TrialToTrial& n) {
+    const auto quantity = quantity_of(n.name);
+    const bool is_share = n.name.ends_with("_relative");
+    const bool is_short = quantity.unit == "m" && std::abs(n.believed_sd) < kShort_m;
+    label = is_share   ? in_words(subject_of(n)) + ", %"
+            : is_short ? quantity.words + ", mm"
+                       : quantity.label();
+    scale = is_share ? 100.0 : is_short ? 1e3 : 1.0;
+  }
+  std::string label;
+  double scale = 1.0;
+};
+
 // Trials of any fitted number, in their order.
 std::vector<std::string> trials_of(const Diagnosis& d) {
   std::vector<std::string> trials;
@@ -32,21 +48,26 @@ StudyTable numbers_table(const Diagnosis& d) {
   for (const auto& n : d.trial_to_trial) {
     double furthest = 0.0;
     for (const auto& value : n.values) furthest = std::max(furthest, std::abs(value.after));
-    std::vector<std::string> row{quantity_of(n.name).label(), number(n.believed_sd)};
+    const Shown shown(n);
+    const auto digits = [&](double value, double sd) {
+      return to_digits_of(shown.scale * value, shown.scale * sd);
+    };
+    std::vector<std::string> row{shown.label, plain_number(shown.scale * n.believed_sd, 3)};
     if (changed) {
-      row.push_back(to_digits_of(n.mean_before, n.sd_before));
-      row.push_back(to_digits_of(n.sd_before, n.sd_before));
+      row.push_back(digits(n.mean_before, n.sd_before));
+      row.push_back(digits(n.sd_before, n.sd_before));
     }
-    row.push_back(to_digits_of(n.mean_after, n.sd_after));
-    row.push_back(to_digits_of(n.sd_after, n.sd_after));
+    row.push_back(digits(n.mean_after, n.sd_after));
+    row.push_back(digits(n.sd_after, n.sd_after));
     row.push_back(n.believed_sd > 0.0 ? plain_number(furthest / n.believed_sd, 2) : "");
     table.rows.push_back(std::move(row));
     table.row_marks.emplace_back(n.exceeds_after() ? "bad" : "");
   }
   table.note =
-      "Parameters that are fitted in each trial beside the model. A marked one differs by more than its "
-      "believed spread allows (1 % by chance, over all trials and numbers): it may have absorbed something "
-      "that the model lacks. So may one whose mean lies many believed standard deviations (sd) from zero.";
+      "Parameters that are fitted in each trial beside the model; sd: standard deviation. A marked one "
+      "differs by more than the spread that the belief states for it (1 % by chance, over all trials and "
+      "numbers): it may have absorbed something that the model lacks. So may one whose mean lies many "
+      "believed sd from zero.";
   return table;
 }
 
@@ -54,7 +75,7 @@ StudyTable values_table(const Diagnosis& d) {
   StudyTable table;
   table.title = is_changed(d) ? "Their values, with what was found" : "Their values";
   table.columns = {"trial"};
-  for (const auto& n : d.trial_to_trial) table.columns.push_back(quantity_of(n.name).label());
+  for (const auto& n : d.trial_to_trial) table.columns.push_back(Shown(n).label);
   bool exceeded = false;
   for (const auto& trial : trials_of(d)) {
     std::vector<std::string> row{trial};
@@ -63,7 +84,9 @@ StudyTable values_table(const Diagnosis& d) {
       const auto value = std::ranges::find(n.values, trial, &SpreadValue::trial);
       const bool is_there = value != n.values.end();
       const bool is_marked = is_there && value->exceeds_after;
-      row.push_back(is_there ? to_digits_of(value->after, n.sd_after) + (is_marked ? " !" : "") : "");
+      const double scale = Shown(n).scale;
+      row.push_back(
+          is_there ? to_digits_of(scale * value->after, scale * n.sd_after) + (is_marked ? " !" : "") : "");
       exceeds = exceeds || is_marked;
     }
     table.rows.push_back(std::move(row));

@@ -11,6 +11,8 @@ using Mark = StudySeries::Mark;
 StudyFigure recorded_and_simulated(const Trace& trace, bool found) {
   const auto q = quantity_of(trace.channel);
   StudyFigure figure{q.words, "time, s", q.label(), {}};
+  figure.note = found ? "This trial was not used for the fit: the sizes come from the other trials."
+                      : "Recorded samples and the simulation as believed.";
   figure.series.push_back({"recorded", trace.time_s, trace.measured, {}, {}, Mark::points, "grey"});
   figure.series.push_back({.label = found ? "simulation before" : "simulation",
                            .x = trace.time_s,
@@ -44,6 +46,7 @@ StudySeries noise_band(const std::string& label, const std::vector<double>& time
 StudyFigure recorded_less_simulated(const Trace& trace, bool found) {
   const auto q = quantity_of(trace.channel);
   StudyFigure figure{q.words + ", recorded less simulated", "time, s", q.label(), {}};
+  figure.note = "Points in the band differ by no more than noise, uncertain inputs and model error allow.";
   figure.series.push_back(noise_band("noise floor", trace.time_s, trace.floor));
   figure.series.push_back({found ? "before" : "recorded less simulated",
                            trace.time_s,

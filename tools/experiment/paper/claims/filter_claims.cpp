@@ -13,7 +13,7 @@ double mean_square(const SquareSum& sum) { return sum.squares / sum.count; }
 Claim filter_model(const ProgrammeResults& r) {
   const auto check = filter_check(r.setup.cycle.estimator.kalman);
   const auto e = errors_of_all(r);
-  Claim c{9, "Body and foot as a Kalman filter with A, B, H",
+  Claim c{9, "Body and foot as a Kalman filter with matrices ⟦A⟧, ⟦B⟧ and ⟦H⟧",
           "observable (rank 4) with ToF, two modes not without; normalised innovations of a true model in "
           "their 95 % band in at least 85 % of runs"};
   c.figures = {{"rank with ToF", static_cast<double>(check.rank_with_tof), "", 0},
@@ -34,7 +34,7 @@ Claim tracks_motion_capture(const ProgrammeResults& r) {
   const double offset_mm = 1e3 * e.foot_depth_m.rms();
   const double within_mm = 1e3 * e.depth_about_trial_mean_m.rms();
   Claim c{10, "The filter tracks the positions of motion capture",
-          "rms of depth <= 4 mm, <= 1.7 mm about the trial's own mean"};
+          "rms of depth at most 4 mm, and at most 1.7 mm about the trial's own mean"};
   c.figures = {{"foot depth, rms", offset_mm, "mm", 2},
                {"foot depth about the trial's mean, rms", within_mm, "mm", 2},
                {"body height, rms", 1e3 * e.body_height_m.rms(), "mm", 2}};
@@ -46,7 +46,7 @@ Claim tracks_motion_capture(const ProgrammeResults& r) {
 
 Claim velocity_accuracy(const ProgrammeResults& r) {
   const auto e = errors_of_all(r);
-  Claim c{11, "The filter gives velocities of high accuracy", "rms <= 0.02 m/s, body and foot"};
+  Claim c{11, "The filter gives velocities of high accuracy", "rms at most 0.02 m/s, body and foot"};
   c.figures = {{"foot, rms", e.foot_velocity_mps.rms(), "m/s", 4},
                {"body, rms", e.body_velocity_mps.rms(), "m/s", 4}};
   c.verdict = comes_out_if(e.foot_velocity_mps.rms() <= 0.02 && e.body_velocity_mps.rms() <= 0.02);
@@ -57,7 +57,7 @@ Claim velocity_accuracy(const ProgrammeResults& r) {
 Claim raw_tof(const ProgrammeResults& r) {
   const auto e = errors_of_all(r);
   const double height_mm = 1e3 * e.tof_m.rms();
-  Claim c{12, "Time of flight alone is not suitable", "raw rms >= 5 mm, differentiated >= 1 m/s"};
+  Claim c{12, "Time of flight alone is not suitable", "rms at least 5 mm raw, at least 1 m/s differentiated"};
   c.figures = {{"raw height, rms", height_mm, "mm", 2},
                {"its difference over a sample, rms", e.tof_velocity_mps.rms(), "m/s", 2}};
   c.verdict = comes_out_if(height_mm >= 5.0 && e.tof_velocity_mps.rms() >= 1.0);

@@ -41,10 +41,10 @@ Claim foot_size(const ProgrammeResults& r) {
                [&](const HopResult& h) { return deep(h) && h.validity == Validity::deeper_than_foot; }) *
       static_cast<double>(trials.size());
   Claim c{2, "The foot is a disk of 80 mm with sides of 50 mm",
-          "A = 50.27 cm²; every stride within 50 mm, deeper ones flagged"};
+          "⟦A⟧ = 50.27 cm²; every stride within 50 mm, deeper ones flagged"};
   c.figures = {{"area", 1e4 * area_m2, "cm²", 2},
-               {"rho g A", archimedes, "N/m", 1},
-               {"k over rho g A", world.terrain.stiffness_N_per_m / archimedes, "", 1},
+               {"⟦rho g A⟧", archimedes, "N/m", 1},
+               {"⟦k / (rho g A)⟧", world.terrain.stiffness_N_per_m / archimedes, "", 1},
                {"strides deeper than 50 mm", too_deep, "", 0},
                {"of those flagged by the firmware", flagged, "", 0}};
   const bool area_right = std::abs(1e4 * area_m2 - 50.27) < 0.005;

@@ -45,7 +45,7 @@ Claim touchdown_speeds(const ProgrammeResults& r) {
 
 Claim leg_stiffnesses(const ProgrammeResults& r) {
   Claim c{15, "Extension stiffness 500 N/m, compression 250, 375 and 500 N/m",
-          "dF/dL of the leg within 1 % in each mode, where the torque is not at its limit"};
+          "⟦d F / d L⟧ of the leg within 1 % in each mode, where the torque is not at its limit"};
   double worst = 0.0;
   for (const double set : {250.0, 375.0, 500.0}) {
     const auto found = leg_stiffness(r.setup.cycle, r.setup.world, set);
@@ -72,21 +72,21 @@ Claim trial_count(const ProgrammeResults& r) {
   const double per_set = static_cast<double>(r.hops.size()) / r.setup.seeds;
   const double complete = static_cast<double>(complete_trials(r).size());
   Claim c{16, "60 trials",
-          "5 speeds x 3 stiffnesses x 5 trials are 75; the order of the treatments is the same for 75 and "
+          "5 speeds × 3 stiffnesses × 5 trials are 75; the order of the treatments is the same for 75 and "
           "for 12 cells"};
   c.figures = {{"trials in a set", per_set, "", 0},
                {"trials in all", static_cast<double>(r.hops.size()), "", 0},
                {"of them with a liftoff", complete, "", 0},
-               {"mean error, 15 cells: QS", all[0], "", 3},
-               {"15 cells: MO", all[1], "", 3},
-               {"15 cells: WLS", all[2], "", 3},
-               {"mean error, 12 cells (without 0.45 m/s): QS", subset[0], "", 3},
-               {"12 cells: MO", subset[1], "", 3},
-               {"12 cells: WLS", subset[2], "", 3}};
+               {"mean error, 15 cells: quasi-static, OLS", all[0], "", 3},
+               {"15 cells: observer, OLS", all[1], "", 3},
+               {"15 cells: observer, weighted", all[2], "", 3},
+               {"mean error, 12 cells (without 0.45 m/s): quasi-static, OLS", subset[0], "", 3},
+               {"12 cells: observer, OLS", subset[1], "", 3},
+               {"12 cells: observer, weighted", subset[2], "", 3}};
   const auto ordered = [](const auto& e) { return e[0] > e[1] && e[1] > e[2]; };
   c.verdict = ordered(all) == ordered(subset) ? Verdict::only_if : Verdict::does_not;
   c.why = fmt::format(
-      "12 of the 15 cells are meant: 5 x 3 x 5 is {:.0f}. Which 12 does not matter for the order", per_set);
+      "12 of the 15 cells are meant: 5 × 3 × 5 is {:.0f}. Which 12 does not matter for the order", per_set);
   return c;
 }
 

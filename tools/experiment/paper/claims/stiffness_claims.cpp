@@ -32,7 +32,7 @@ double error_at_speed(const CaseResult& c, double speed_mps, std::size_t treatme
 
 Claim observer_is_close(const ProgrammeResults& r) {
   Claim c{31, "The momentum observer stays close to the load cell through the stride",
-          "rms <= 0.4 of the quasi-static one's in every cell"};
+          "rms at most 0.4 of the quasi-static one's in every cell"};
   double worst = 0.0;
   for (std::size_t cell = 0; cell < hop_cells().size(); ++cell) {
     EstimationErrors e;
@@ -55,11 +55,11 @@ Claim quasi_static_is_curved(const ProgrammeResults& r) {
   const double share =
       share_of(trials, [](const HopResult& h) { return h.quasi_static_r_squared < h.observer_r_squared; });
   Claim c{32, "Quasi-static force against depth is strongly nonlinear",
-          "R^2 of a straight line: quasi-static below observer"};
+          "⟦R^2⟧ of a straight line: quasi-static below observer"};
   c.figures = {{"trials in which it holds", 100.0 * share, "%", 1},
-               {"R^2 quasi-static, mean",
+               {"⟦R^2⟧ quasi-static, mean",
                 mean(over(trials, [](const HopResult& h) { return h.quasi_static_r_squared; })), "", 3},
-               {"R^2 observer, mean",
+               {"⟦R^2⟧ observer, mean",
                 mean(over(trials, [](const HopResult& h) { return h.observer_r_squared; })), "", 3}};
   c.verdict = verdict_of_share(share);
   c.why = "samples of the penetration faster than the firmware's threshold";
@@ -68,19 +68,20 @@ Claim quasi_static_is_curved(const ProgrammeResults& r) {
 
 Claim observer_beats_quasi_static(const ProgrammeResults& r) {
   Claim c{33,
-          "The observer's stiffness is closer to k_GT than the quasi-static one, over speed and stiffness",
-          "mean abs(k/k_GT - 1) over the cells smaller in at least 7 of 8 seeds; cases A, A2, B and C"};
+          "The observer's stiffness is closer to ⟦k_GT⟧ than the quasi-static one, over speed and stiffness",
+          "mean ⟦|k / k_GT - 1|⟧ over the cells smaller in at least 7 of 8 seeds; cases A, A2, B and C"};
   bool passed = true;
   for (const std::string_view name : {"A", "A2", "B", "C"}) {
     const auto& one = case_of(r, name);
     const double seeds = static_cast<double>(one.error_by_seed.size());
     const double ordered = one.seeds_in_order(Treatment::quasi_static_ols, Treatment::observer_ols);
-    c.figures.push_back({fmt::format("case {}: seeds in order", name), 100.0 * ordered / seeds, "%", 0});
+    c.figures.push_back(
+        {fmt::format("case {}: seeds in which it is smaller", name), 100.0 * ordered / seeds, "%", 0});
     passed = passed && ordered >= 7.0 / 8.0 * seeds;
   }
   const auto error = case_of(r, "A").mean_error();
-  c.figures.push_back({"case A: QS", error[kQs], "", 3});
-  c.figures.push_back({"case A: MO", error[kMo], "", 3});
+  c.figures.push_back({"case A: quasi-static, OLS", error[kQs], "", 3});
+  c.figures.push_back({"case A: observer, OLS", error[kMo], "", 3});
   c.verdict = comes_out_if(passed);
   c.why = "in every window; but through the origin most of the quasi-static error is the missing foot weight";
   return c;
@@ -114,7 +115,7 @@ std::string other_conditions(const ProgrammeResults& r) {
 }
 
 Claim weighting_helps(const ProgrammeResults& r) {
-  Claim c{35, "Weighted regression tracks k_GT, a substantial improvement",
+  Claim c{35, "Weighted regression tracks ⟦k_GT⟧, a substantial improvement",
           "smaller error than the observer's OLS in at least 6 of 8 seeds, in every window"};
   int windows = 0, better = 0;
   std::string where;
@@ -123,9 +124,10 @@ Claim weighting_helps(const ProgrammeResults& r) {
     const double seeds = static_cast<double>(one.error_by_seed.size());
     const double ordered = one.seeds_in_order(Treatment::observer_ols, Treatment::observer_wls);
     const auto name = one.definition.name;
-    c.figures.push_back({fmt::format("case {}: MO", name), error[kMo], "", 3});
-    c.figures.push_back({fmt::format("case {}: WLS", name), error[kWls], "", 3});
-    c.figures.push_back({fmt::format("case {}: seeds in order", name), 100.0 * ordered / seeds, "%", 0});
+    c.figures.push_back({fmt::format("case {}: observer, OLS", name), error[kMo], "", 3});
+    c.figures.push_back({fmt::format("case {}: observer, weighted", name), error[kWls], "", 3});
+    c.figures.push_back(
+        {fmt::format("case {}: seeds in which it is smaller", name), 100.0 * ordered / seeds, "%", 0});
     ++windows;
     if (ordered < 6.0 / 8.0 * seeds) continue;
     ++better;
@@ -152,13 +154,13 @@ Claim weight_formula(const ProgrammeResults& r) {
   bool monotone = true;
   for (int i = 0; i < 1000; ++i)
     monotone = monotone && acceleration_weight(w, 0.1 * i) >= acceleration_weight(w, 0.1 * (i + 1));
-  Claim c{36, "Weights 1/sigma_i^2 with a logistic s of the acceleration",
-          "s(a0) = 0.5; falling throughout; ratio of weights (sigma_bad/sigma_good)^2 within 10 %"};
-  c.figures = {{"s(a0)", half, "", 4},
+  Claim c{36, "Weights ⟦1 / sigma_i^2⟧ with a logistic ⟦s⟧ of the acceleration",
+          "⟦s(a_0) = 0.5⟧; falling throughout; ratio of weights ⟦(sigma_bad / sigma_good)^2⟧ within 10 %"};
+  c.figures = {{"⟦s(a_0)⟧", half, "", 4},
                {"ratio of weights", ratio, "", 1},
-               {"(sigma_bad/sigma_good)^2", expected, "", 1}};
+               {"⟦(sigma_bad / sigma_good)^2⟧", expected, "", 1}};
   c.verdict = comes_out_if(std::abs(half - 0.5) < 1e-9 && monotone && std::abs(ratio / expected - 1.0) < 0.1);
-  c.why = "at rest s is not quite 0, so the ratio is not quite reached";
+  c.why = "at rest ⟦s⟧ is not quite 0, so the ratio is not quite reached";
   return c;
 }
 

@@ -27,10 +27,10 @@ Claim slow_force_is_linear(const ProgrammeResults& r) {
     r_squared.push_back(fit_line(depth_m, force_N).r_squared);
   }
   Claim c{26, "At low speed the force is linear in depth past a transient",
-          "R^2 > 0.99 for z > 5 mm in every slow run"};
+          "⟦R^2 > 0.99⟧ deeper than 5 mm in every slow run"};
   c.figures = {{"slow runs", static_cast<double>(r_squared.size()), "", 0},
-               {"R^2, smallest", smallest(r_squared), "", 4},
-               {"R^2, mean", mean(r_squared), "", 4}};
+               {"⟦R^2⟧, smallest", smallest(r_squared), "", 4},
+               {"⟦R^2⟧, mean", mean(r_squared), "", 4}};
   c.verdict = comes_out_if(smallest(r_squared) > 0.99);
   c.why = "the first millimetres are steeper: the cone under the foot has still to form";
   return c;
@@ -66,20 +66,20 @@ Claim speed_squared(const ProgrammeResults& r) {
     log_force.push_back(std::log(above_N));
   }
   const double exponent = fit_line(log_speed, log_force).slope;
-  Claim c{27, "Above sqrt(2 d g) = 0.08 m/s the force grows with the square of the speed",
-          "0.0767 m/s; exponent of F - F_d at 2 mm of 2 ± 0.2 above 0.3 m/s"};
-  c.figures = {{"sqrt(2 d g)", r.inertial_speed_mps, "m/s", 4},
+  Claim c{27, "Above ⟦sqrt(2 d g)⟧ = 0.08 m/s the force grows with the square of the speed",
+          "0.0767 m/s; exponent of ⟦F - F_d⟧ at 2 mm of 2 ± 0.2 above 0.3 m/s"};
+  c.figures = {{"⟦sqrt(2 d g)⟧", r.inertial_speed_mps, "m/s", 4},
                {"exponent", exponent, "", 3},
                {"quasi-static force at 2 mm", mean(slow_N), "N", 2}};
   c.verdict =
       comes_out_if(std::abs(r.inertial_speed_mps - 0.0767) < 0.00005 && std::abs(exponent - 2.0) <= 0.2);
-  c.why = "actuator runs at constant speed, where no grain is accelerated but by being recruited";
+  c.why = "strokes at constant speed: there only a grain that begins to move with the foot is accelerated";
   return c;
 }
 
 Claim map_is_not_enough(const ProgrammeResults& r) {
   Claim c{28, "Depth and speed alone do not explain the force of a hop",
-          "rms of what remains falls by at least 30 % when m_a z'' is added, v >= 0.7 m/s"};
+          "rms of what remains falls by at least 30 % when ⟦m_a z''⟧ is added, from 0.7 m/s on"};
   bool passed = true;
   for (const auto& d : decomposition_by_speed(r, &HopResult::truth)) {
     c.figures.push_back({fmt::format("map alone, {:.2f} m/s", d.speed_mps), d.map_N, "N", 2});
@@ -91,9 +91,10 @@ Claim map_is_not_enough(const ProgrammeResults& r) {
     if (d.speed_mps >= kFast_mps) instruments = std::min(instruments, d.drop_percent());
   for (const auto& d : decomposition_by_speed(r, &HopResult::robot))
     if (d.speed_mps >= kFast_mps) robot = std::min(robot, d.drop_percent());
-  c.figures.push_back({"with the load cell's force: falls by at least, v >= 0.7 m/s", instruments, "%", 1});
   c.figures.push_back(
-      {"with the robot's own force and depth: falls by at least, v >= 0.7 m/s", robot, "%", 1});
+      {"with the load cell's force: falls by at least, from 0.7 m/s on", instruments, "%", 1});
+  c.figures.push_back(
+      {"with the robot's own force and depth: falls by at least, from 0.7 m/s on", robot, "%", 1});
   c.verdict = comes_out_if(passed);
   c.why = fmt::format(
       "while the foot goes to new depths, with true force and motion; by the robot's own force and depth it "
@@ -104,8 +105,8 @@ Claim map_is_not_enough(const ProgrammeResults& r) {
 }
 
 Claim added_mass_explains(const ProgrammeResults& r) {
-  Claim c{29, "m_a z'' matches the remainder in timing and shape",
-          "correlation >= 0.7 on penetrating samples, v >= 0.7 m/s"};
+  Claim c{29, "⟦m_a z''⟧ matches the remainder in timing and shape",
+          "correlation at least 0.7 on penetrating samples, from 0.7 m/s on"};
   bool passed = true;
   for (const auto& d : decomposition_by_speed(r, &HopResult::truth)) {
     c.figures.push_back({fmt::format("correlation, {:.2f} m/s", d.speed_mps), d.correlation, "", 2});
@@ -116,7 +117,7 @@ Claim added_mass_explains(const ProgrammeResults& r) {
       c.figures.push_back(
           {fmt::format("by the robot's own estimates, {:.2f} m/s", d.speed_mps), d.correlation, "", 2});
   c.verdict = comes_out_if(passed);
-  c.why = "m_a is integrated from the actuator set's map; nothing is fitted to the hop";
+  c.why = "⟦m_a⟧ is integrated from the actuator set's map; nothing is fitted to the hop";
   return c;
 }
 
@@ -139,7 +140,7 @@ Claim added_mass_saturates(const ProgrammeResults& r) {
           "integrated gradient within 20 % of the bed's to 30 mm; gradient at 35 mm below a fifth of that "
           "at the surface"};
   for (const int mm : {5, 10, 20, 30})
-    c.figures.push_back({fmt::format("m_a at {} mm against the bed's", mm),
+    c.figures.push_back({fmt::format("⟦m_a⟧ at {} mm against the bed's", mm),
                          r.map.added_mass_kg(1e-3 * mm) / bed.added_mass_kg(1e-3 * mm), "", 3});
   c.figures.push_back({"largest departure, 1 to 30 mm", 100.0 * aligned, "%", 1});
   c.figures.push_back({"the same with the amplifier's lag left in", 100.0 * lagging, "%", 1});

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "terrain/bed.hpp"
 #include "tools/experiment/paper/page/series.hpp"
@@ -23,7 +24,9 @@ const ActuatorRun& run_near(const ProgrammeResults& r, double speed_mps) {
 StudyFigure curves(const ProgrammeResults& r, bool residual) {
   StudyFigure figure{.title = residual ? "Residual of the map" : "Force against depth by speed",
                      .x_label = "depth, mm",
-                     .y_label = residual ? "force less map, N" : "force, N"};
+                     .y_label = residual ? "force less map, N" : "force, N",
+                     .note = residual ? "Measured force less the map's, for five of the strokes."
+                                      : "Five of the strokes as measured, and the map at their speeds."};
   std::size_t color = 0;
   for (const double wanted_mps : {0.022, 0.3, 0.55, 0.8, 1.1}) {
     const auto& run = run_near(r, wanted_mps);
@@ -60,9 +63,9 @@ StudyFigure slopes(const ProgrammeResults& r) {
   return {.title = "Stiffness of each stroke",
           .x_label = "speed, m/s",
           .y_label = "slope with intercept, N/m",
-          .series = {measured, level("k_GT, slow runs", "orange", r.stiffness.slow_free_intercept),
+          .series = {measured, level("⟦k_GT⟧, slow runs", "orange", r.stiffness.slow_free_intercept),
                      level("bed", "grey", r.stiffness.bed)},
-          .marks = {{r.inertial_speed_mps, "sqrt(2 d g)"}},
+          .marks = {{r.inertial_speed_mps, "⟦sqrt(2 d g)⟧"}},
           .note = "Drag lifts the shallow end of the fast strokes' curves: their slope is lower."};
 }
 
@@ -82,21 +85,28 @@ StudyFigure mass_profile(const ProgrammeResults& r, bool gradient) {
   }
   return {.title = gradient ? "Added-mass gradient" : "Added mass",
           .x_label = "depth, mm",
-          .y_label = gradient ? "gradient dm_a/dz, kg/m" : "added mass m_a, g",
-          .series = {map, lag, truth}};
+          .y_label = gradient ? "gradient of ⟦m_a⟧, kg/m" : "added mass ⟦m_a⟧, g",
+          .series = {map, lag, truth},
+          .note = gradient ? "From the map, with and without the correction for the amplifier's lag, beside "
+                             "the simulated bed's own law."
+                           : "The gradient integrated over depth."};
 }
 
 StudyTable definitions(const ProgrammeResults& r) {
   const auto& k = r.stiffness;
-  StudyTable table{.title = "k_GT by definition", .columns = {"definition", "k, N/m", "against the bed, %"}};
+  StudyTable table{.title = "⟦k_GT⟧ by definition",
+                   .columns = {"definition", "stiffness, N/m", "against the bed, %"},
+                   .note =
+                       "The stiffness of the same bed by eight definitions. Those without noise are the "
+                       "truth that the treatments below are compared with."};
   const auto row = [&](const char* name, double value) {
     table.rows.push_back(
         {name, fmt::format("{:.0f}", value), fmt::format("{:+.1f}", 100.0 * (value / k.bed - 1.0))});
   };
   row("bed as given", k.bed);
-  row("runs below sqrt(2 d g), line with intercept", k.slow_free_intercept);
-  row("runs below sqrt(2 d g), line through the origin", k.slow_through_origin);
-  row("coefficient of z in the map", k.map_coefficient);
+  row("runs below ⟦sqrt(2 d g)⟧, line with intercept", k.slow_free_intercept);
+  row("runs below ⟦sqrt(2 d g)⟧, line through the origin", k.slow_through_origin);
+  row("coefficient of ⟦z⟧ in the map", k.map_coefficient);
   row("all runs, line with intercept", k.all_runs_free_intercept);
   row("runs from 1 m/s on, line with intercept", k.fastest_free_intercept);
   row("bed's law without noise, intercept (truth of the treatments)",
@@ -117,10 +127,11 @@ StudySection actuator_section(const ProgrammeResults& r) {
           "constant earlier.",
           r.actuator.size(), 1e3 * r.setup.actuator.stroke_m, r.setup.actuator.speeds,
           r.actuator.front().speed_mps, r.actuator.back().speed_mps),
-      fmt::format("Depth-speed map by ordinary least squares over {} samples: F = {:.2f} + {:.0f} z + "
-                  "({:.2f} {:+.0f} z {:+.0f} z²) v², R² = {:.4f}, rms {:.2f} N (z in m, v in m/s, F in N).",
-                  r.map.samples, r.map.intercept_N, r.map.stiffness_N_per_m, a, b, c, r.map.r_squared,
-                  r.map.rms_N),
+      fmt::format("Depth-speed map by ordinary least squares over {} samples: ⟦F = {:.2f} + {:.0f} z + "
+                  "({:.2f} {} {:.0f} z {} {:.0f} z^2) v^2⟧, with ⟦F⟧ in N, ⟦z⟧ in m and ⟦v⟧ in m/s. "
+                  "⟦R^2⟧ is {:.4f}, the rms of the residuals {:.2f} N.",
+                  r.map.samples, r.map.intercept_N, r.map.stiffness_N_per_m, a, b < 0.0 ? "-" : "+",
+                  std::abs(b), c < 0.0 ? "-" : "+", std::abs(c), r.map.r_squared, r.map.rms_N),
       definitions(r),
       curves(r, false),
       curves(r, true),

@@ -45,7 +45,8 @@ StudyFigure remainder(const std::vector<PenetratingSample>& samples) {
           .y_label = "force, N",
           .series = {over_time(samples, "force less map", "orange",
                                [](const Sample& s) { return s.force_N - s.map_N; }),
-                     over_time(samples, "-m_a z''", "blue", [](const Sample& s) { return s.inertia_N; })}};
+                     over_time(samples, "⟦-m_a z''⟧", "blue", [](const Sample& s) { return s.inertia_N; })},
+          .note = "The added mass explains what the map leaves if the two lines agree."};
 }
 
 StudyFigure rms_by_speed(const std::vector<SpeedDecomposition>& rows) {
@@ -61,7 +62,8 @@ StudyFigure rms_by_speed(const std::vector<SpeedDecomposition>& rows) {
   return {.title = "Rms of what remains by touchdown speed",
           .x_label = "touchdown speed, m/s",
           .y_label = "rms, N",
-          .series = {line, map, both}};
+          .series = {line, map, both},
+          .note = "By the true force and motion, mean over the trials of a speed."};
 }
 
 void add_rows(StudyTable& table, const std::string& source, const std::vector<SpeedDecomposition>& rows) {
@@ -72,10 +74,14 @@ void add_rows(StudyTable& table, const std::string& source, const std::vector<Sp
 }
 
 StudyTable rms_table(const ProgrammeResults& r) {
-  StudyTable table{.title = "Rms of what remains, mean over trials",
-                   .columns = {"force and motion from", "speed, m/s", "line, N", "map, N",
-                               "map and added mass, N", "falls by, %", "correlation"},
-                   .whole = true};
+  StudyTable table{
+      .title = "Rms of what remains, mean over trials",
+      .columns = {"force and motion from", "speed, m/s", "line, N", "map, N", "map and added mass, N",
+                  "falls by, %", "correlation"},
+      .note =
+          "Rms of the force that each description leaves. Falls by: from the map to the map with "
+          "added mass. Correlation: between ⟦-m_a z''⟧ and what the map leaves.",
+      .whole = true};
   add_rows(table, "truth", decomposition_by_speed(r, &HopResult::truth));
   add_rows(table, "load cell, true motion", decomposition_by_speed(r, &HopResult::instruments));
   add_rows(table, "robot's own estimates", decomposition_by_speed(r, &HopResult::robot));
@@ -88,10 +94,10 @@ StudySection decomposition_section(const ProgrammeResults& r) {
   const auto samples = penetrating_samples(r.example, r.map, ForceSource::truth);
   StudySection section{.title = "Added mass"};
   section.items = {
-      std::string(
-          "Samples of the hops at new depths, described by a straight line fitted to the very trial, by the "
-          "actuator set's map, and by the map with the inertia of the added mass integrated from it. Map "
-          "and added mass have no figure fitted to a hop."),
+      std::string("Three descriptions of the force in hops, at new depths: a straight line fitted to the "
+                  "trial itself, "
+                  "the map of the actuator's strokes, and the map with the inertia of the added mass that is "
+                  "integrated from it. No number of the map or of the added mass is fitted to a hop."),
       rms_table(r), descriptions(samples), remainder(samples),
       rms_by_speed(decomposition_by_speed(r, &HopResult::truth))};
   return section;

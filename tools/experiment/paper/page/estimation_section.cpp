@@ -23,7 +23,9 @@ StudyTable errors_table(const std::vector<SpeedErrors>& rows) {
                   "foot depth to motion capture, mm", "about the trial's mean, mm", "foot velocity, m/s",
                   "body velocity, m/s"},
       .text_columns = 0,
-      .note = "Forces against the true force unless said otherwise; velocities against the truth."};
+      .note =
+          "Forces against the true force unless said otherwise; velocities against the truth. About the "
+          "trial's mean: without the offset of the height sensor, which is constant in a trial."};
   for (const auto& [speed_mps, e] : rows)
     table.rows.push_back(
         {fmt::format("{:.2f}", speed_mps), fmt::format("{:.2f}", e.quasi_static_N.rms()),

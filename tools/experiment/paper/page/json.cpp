@@ -3,6 +3,7 @@
 
 #include "tools/experiment/paper/report.hpp"
 #include "tools/experiment/paper/summaries.hpp"
+#include "tools/report/study_text.hpp"
 
 namespace sandhopper::paper {
 namespace {
@@ -11,13 +12,14 @@ using Json = nlohmann::ordered_json;
 
 Json claim_json(const Claim& claim) {
   Json json{{"number", claim.number},
-            {"statement", claim.statement},
-            {"pass_line", claim.pass_line},
+            {"statement", without_marks(claim.statement)},
+            {"pass_line", without_marks(claim.pass_line)},
             {"figures", Json::array()},
             {"verdict", std::string(words(claim.verdict))},
-            {"why", claim.why}};
+            {"why", without_marks(claim.why)}};
   for (const auto& figure : claim.figures) {
-    json["figures"].push_back({{"name", figure.name}, {"value", figure.value}, {"unit", figure.unit}});
+    json["figures"].push_back(
+        {{"name", without_marks(figure.name)}, {"value", figure.value}, {"unit", figure.unit}});
     if (std::isnan(figure.lowest)) continue;
     json["figures"].back()["smallest"] = figure.lowest;
     json["figures"].back()["largest"] = figure.highest;

@@ -11,6 +11,11 @@ Study programme_report(const ProgrammeResults& results, const std::vector<Claim>
   const auto& setup = results.setup;
   Study data;
   data.title = "The paper's programme on the simulator";
+  data.verdict = summary(claims);
+  data.verdict_mark = std::ranges::count(claims, Verdict::comes_out, &Claim::verdict) ==
+                              static_cast<std::ptrdiff_t>(claims.size())
+                          ? "good"
+                          : "partly";
   data.facts = {{"paper", "arXiv 2604.02563"},
                 {"hops", fmt::format("{} ({} with a liftoff)", results.hops.size(), complete)},
                 {"seeds", std::to_string(setup.seeds)},

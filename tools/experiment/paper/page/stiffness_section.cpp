@@ -15,7 +15,7 @@ constexpr std::array<const char*, kTreatments> kNames{"quasi-static, OLS", "obse
                                                       "observer, weighted"};
 constexpr std::array<const char*, kTreatments> kTreatmentColors{"orange", "purple", "blue"};
 
-// k/k_GT of one cell for each seed that has it.
+// k / k_GT of one cell for each seed that has it.
 std::vector<double> ratios(const CaseResult& result, std::size_t treatment, std::size_t cell) {
   std::vector<double> by_seed;
   for (const auto& seed : result.ratio)
@@ -63,10 +63,10 @@ StudyFigure over_axis(const CaseResult& result, const CellAxis& a) {
   for (std::size_t i = 0; i < hop_cells().size(); ++i)
     if (hop_cells()[i].*a.other == a.fixed) cells.push_back(i);
   const auto at = [&a](std::size_t cell) { return a.scale * hop_cells()[cell].*a.axis; };
-  auto truth = curve("k_GT", "grey", Style::dashed);
+  auto truth = curve("⟦k_GT⟧", "grey", Style::dashed);
   add(truth, at(cells.front()), 1.0);
   add(truth, at(cells.back()), 1.0);
-  StudyFigure figure{.title = a.title, .x_label = a.x_label, .y_label = "k / k_GT"};
+  StudyFigure figure{.title = a.title, .x_label = a.x_label, .y_label = "⟦k / k_GT⟧"};
   figure.series = treatment_series({cells, [&](std::size_t cell, std::size_t) { return at(cell); },
                                     [&](std::size_t cell, std::size_t t) { return ratios(result, t, cell); }},
                                    StudySeries::Mark::line_and_points);
@@ -98,8 +98,9 @@ StudyFigure all_cells(const CaseResult& result) {
   StudyFigure figure{
       .title = "Every cell",
       .x_label = "touchdown speed, m/s / compression stiffness, N/m",
-      .y_label = "k / k_GT",
+      .y_label = "⟦k / k_GT⟧",
       .series = treatment_series({counted(hop_cells().size()), beside, values}, StudySeries::Mark::points),
+      .note = "Case A. 1 is the bed's own stiffness.",
       .wide = true};
   for (const auto& cell : hop_cells())
     figure.categories.push_back(
@@ -116,8 +117,9 @@ StudyFigure by_window(const TreatmentStudy& study) {
   StudyFigure figure{
       .title = "Mean error by sample window",
       .x_label = "case",
-      .y_label = "mean |k/k_GT - 1|",
-      .series = treatment_series({counted(study.cases.size()), beside, errors}, StudySeries::Mark::points)};
+      .y_label = "mean ⟦|k / k_GT - 1|⟧",
+      .series = treatment_series({counted(study.cases.size()), beside, errors}, StudySeries::Mark::points),
+      .note = "Cases as in the table above. Bars: standard deviation over seeds."};
   for (const auto& one : study.cases) figure.categories.emplace_back(one.definition.name);
   return figure;
 }
@@ -147,12 +149,15 @@ std::string window_text(const TreatmentCase& definition) {
 
 StudyTable cases_table(const TreatmentStudy& study) {
   StudyTable table{
-      .title = "Mean |k/k_GT - 1| over the cells",
-      .columns = {"case", "samples", "QS", "MO", "WLS", "QS > MO, seeds", "MO > WLS, seeds"},
+      .title = "Mean ⟦|k / k_GT - 1|⟧ over the cells",
+      .columns = {"case", "samples", "quasi-static, OLS", "observer, OLS", "observer, weighted",
+                  "observer nearer than quasi-static, seeds", "weighted nearer than OLS, seeds"},
       .text_columns = 2,
-      .note = fmt::format("k_GT: slow intrusion into the bed's law, {:.0f} N/m with intercept, {:.0f} N/m "
-                          "through the origin.",
-                          study.truth.free_intercept_N_per_m, study.truth.through_origin_N_per_m),
+      .note = fmt::format(
+          "Error of the stiffness as a share of ⟦k_GT⟧, mean over the cells of speed and leg stiffness. "
+          "⟦k_GT⟧: slow intrusion into the bed's law, {:.0f} N/m with intercept, {:.0f} N/m "
+          "through the origin. Seeds: repetitions in which the first of the two is nearer.",
+          study.truth.free_intercept_N_per_m, study.truth.through_origin_N_per_m),
       .whole = true};
   for (const auto& one : study.cases) {
     const auto error = one.mean_error();
@@ -170,8 +175,10 @@ StudyTable cases_table(const TreatmentStudy& study) {
 
 StudyTable cells_table(const CaseResult& result) {
   StudyTable table{
-      .title = "k/k_GT by cell, case A: mean and standard deviation over seeds of the mean of five trials",
-      .columns = {"touchdown speed, m/s", "compression stiffness, N/m", "QS", "MO", "WLS"},
+      .title =
+          "⟦k / k_GT⟧ by cell, case A: mean and standard deviation over seeds of the mean of five trials",
+      .columns = {"touchdown speed, m/s", "compression stiffness, N/m", "quasi-static, OLS", "observer, OLS",
+                  "observer, weighted"},
       .text_columns = 0,
       .whole = true};
   for (std::size_t cell = 0; cell < hop_cells().size(); ++cell) {
@@ -189,11 +196,12 @@ StudyTable cells_table(const CaseResult& result) {
 
 StudyTable conditions_table(const ProgrammeResults& r) {
   StudyTable table{
-      .title = "Other conditions: mean |k/k_GT - 1|",
-      .columns = {"condition", "QS, case A", "MO, case A", "WLS, case A", "MO > WLS, seeds of case A",
-                  "QS, case B", "MO, case B", "WLS, case B", "without liftoff"},
+      .title = "Other conditions: mean ⟦|k / k_GT - 1|⟧",
+      .columns = {"condition", "quasi-static, case A", "observer, case A", "observer weighted, case A",
+                  "weighted nearer, seeds of case A", "quasi-static, case B", "observer, case B",
+                  "observer weighted, case B", "without liftoff"},
       .note =
-          "One figure changed at a time; k_GT is that of the changed bed. Cells without a liftoff are left "
+          "One figure changed at a time; ⟦k_GT⟧ is that of the changed bed. Cells without a liftoff are left "
           "out. Green: weights help in case A.",
       .whole = true};
   for (const auto& c : r.conditions) {
@@ -211,16 +219,18 @@ StudyTable conditions_table(const ProgrammeResults& r) {
 
 // Table that compares the results with those of another program with the same definitions.
 StudyTable reference_table(const ProgrammeResults& r) {
-  StudyTable table{.title = "Beside an independent simulation of the same definitions",
-                   .columns = {"case", "treatment", "here", "here, ages ignored", "there", "band, ±",
-                               "here inside", "ages ignored, inside"},
-                   .text_columns = 2,
-                   .note =
-                       "Ages ignored: the filter takes a height reading as of the cycle that hears of it, 2 "
-                       "ms and more late, and forces are paired with the depth of the row they stand in, a "
-                       "cycle younger. Here every sample counts at the instant of its measurement. Case T "
-                       "does without the estimator.",
-                   .whole = true};
+  StudyTable table{
+      .title = "Beside an independent simulation of the same definitions",
+      .columns = {"case", "treatment", "here", "here, ages ignored", "there", "band, ±", "here inside",
+                  "ages ignored, inside"},
+      .text_columns = 2,
+      .note =
+          "Mean ⟦|k / k_GT - 1|⟧ here and in the other simulation (there), which gives its band. Here: every "
+          "sample counts at the instant of its measurement. Ages ignored: the filter uses a height "
+          "reading in the cycle that receives it, 2 ms and more late, and pairs a force with the "
+          "depth of its row, which is one cycle younger. Case T uses the true force and state. "
+          "Edge: green, inside the band here; yellow, only with ages ignored; red, neither.",
+      .whole = true};
   for (const auto& expected : kReferenceCases)
     for (std::size_t i = 0; i < r.treatments.cases.size(); ++i) {
       if (r.treatments.cases[i].definition.name != expected.name) continue;
@@ -247,12 +257,13 @@ StudySection stiffness_section(const ProgrammeResults& r) {
   StudySection section{.title = "Stiffness"};
   section.items = {
       std::string(
-          "Three treatments of the same hops: quasi-static force with ordinary least squares (QS), the "
-          "momentum observer's force with ordinary least squares (MO) and with the weights of the foot's "
-          "acceleration (WLS)."),
+          "Three treatments of the same hops: quasi-static force with ordinary least squares (OLS), the "
+          "momentum observer's force with OLS, and the same with samples weighted by the foot's "
+          "acceleration."),
       cases_table(r.treatments), by_window(r.treatments),
       std::string(
-          "Case A by cell; each point the mean of five trials, bars are standard deviations over seeds.")};
+          "Case A by cell: each point is the mean of five trials, bars are standard deviations over seeds. "
+          "A ratio of 1 is the bed's own stiffness.")};
   for (auto& figure : axis_figures(a)) section.items.emplace_back(std::move(figure));
   section.items.emplace_back(all_cells(a));
   section.items.emplace_back(cells_table(a));

@@ -120,7 +120,8 @@ StudyFigure touchdown(const HopTrial& t) {
   return {.title = "Touchdown, zoomed",
           .x_label = "time since contact, ms",
           .y_label = "force, N",
-          .series = {truth, cell, quasi_static, observer}};
+          .series = {truth, cell, quasi_static, observer},
+          .note = "The first 80 ms of contact; each force at the instant of its measurement."};
 }
 
 StudySeries over_depth(const HopTrial& trial, std::string label, std::string color, const RowValue& force) {
@@ -141,7 +142,7 @@ StudyFigure force_depth(const HopTrial& t) {
                                 [](const HopRow& r) { return r.estimate.quasi_static_force_N; }),
                      over_depth(t, "momentum observer", "blue",
                                 [](const HopRow& r) { return r.estimate.contact_force_N; })},
-          .note = "Touchdown, plateau, second penetration, unloading."};
+          .note = "From the left: touchdown, plateau, second penetration, unloading."};
 }
 
 StudySeries after_contact(const HopTrial& trial, std::string label, std::string color) {
