@@ -138,10 +138,9 @@ StudyFigure prediction_figure(const ProfilePrediction& p, std::span<const Streng
 
 StudySection section_of(const ProfileConclusion& conclusion) {
   StudySection section{.title = "Strength of the ground over depth"};
-  section.items.emplace_back(
-      std::string("The force over depth is estimated from each trial by itself, as the firmware does after a "
-                  "stride. Then the "
-                  "trials are pooled at every depth. Intervals come from how much the trials differ."));
+  section.items.emplace_back(std::string(
+      "The force over depth is estimated from each trial by itself, as the firmware does after a "
+      "stride. Then the trials are pooled at every depth. Intervals come from how much the trials differ."));
   for (const auto& group : conclusion.groups) {
     if (group.depths.empty()) {
       section.items.emplace_back(group_title(group) + ". " + bound_text(group));

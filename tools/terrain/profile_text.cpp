@@ -178,8 +178,7 @@ std::string left_out_text(const CurveGroup& g) {
   if (g.left_out.empty()) return "";
   return fmt::format(
       "Check: each trial in turn was compared with the band that the other {} give for one new trial. It "
-      "lies "
-      "inside at {}; {}.",
+      "lies inside at {}; {}.",
       g.curves.size() - 1, inside_text(g.left_out), width_text(g.left_out));
 }
 

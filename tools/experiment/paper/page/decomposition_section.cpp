@@ -95,8 +95,8 @@ StudySection decomposition_section(const ProgrammeResults& r) {
   StudySection section{.title = "Added mass"};
   section.items = {
       std::string("Three descriptions of the force in hops, at new depths: a straight line fitted to the "
-                  "trial itself, "
-                  "the map of the actuator's strokes, and the map with the inertia of the added mass that is "
+                  "trial itself, the map of the actuator's strokes, and the map with the inertia of the "
+                  "added mass that is "
                   "integrated from it. No number of the map or of the added mass is fitted to a hop."),
       rms_table(r), descriptions(samples), remainder(samples),
       rms_by_speed(decomposition_by_speed(r, &HopResult::truth))};
