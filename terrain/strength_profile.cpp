@@ -217,8 +217,8 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
 
 void ProfileSolver::take_slopes() noexcept {
   for (std::size_t j = 0; j < kN; ++j)
-    slope_N_per_m_[j] = std::max(
-        0.0, believed_N_per_m_[j] + posterior_.mean[j] + intercept_N_per_m_[j] * posterior_.mean[kIntercept]);
+    slope_N_per_m_[j] =
+        believed_N_per_m_[j] + posterior_.mean[j] + intercept_N_per_m_[j] * posterior_.mean[kIntercept];
 }
 
 // Coefficients of a cell's features whose combination is the residual of the posterior mean.

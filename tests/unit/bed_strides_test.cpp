@@ -137,9 +137,24 @@ TEST(BedTrial, StridesInTheCraterGiveItsReloadingLine) {
 // The accelerometer feels the blow before the motors reply. Half of the expected mean time leaves -0.1 ms,
 // twice of it 0.25 ms.
 TEST(BedScore, NothingRemainsOfTheMeanTimeAtContact) {
-  const auto scores = score_beds({.cycle = {}, .world = {}, .beds = {"line"}, .trials = 300});
+  const auto scores =
+      score_beds({.cycle = {}, .world = {}, .beds = {"line"}, .ground = GroundDraw::centre, .trials = 300});
   ASSERT_EQ(scores.size(), 1u);
   EXPECT_NEAR(scores[0].contact_time.remaining_s(), 0.0, 0.00005);
+}
+
+// A ground's inertia differs from trial to trial, but not among the places of one session: strides of two
+// grounds have no common drag.
+TEST(BedScore, GroundIsDrawnForEachTrialAndForEachSession) {
+  const BedScoreSetup setup{.beds = {"line"}, .trials = 8, .places = {4}};
+  auto centre = setup;
+  centre.ground = GroundDraw::centre;
+  const auto drawn = score_beds(setup)[0], fixed = score_beds(centre)[0];
+  EXPECT_GT(drawn.first.less_drag.depths, 0.0);
+  EXPECT_EQ(drawn.first.less_drag.depths + drawn.first.more_drag.depths, drawn.first.band.depths);
+  EXPECT_EQ(fixed.first.less_drag.depths + fixed.first.more_drag.depths, 0.0);
+  EXPECT_NE(drawn.first.band.squared_error, fixed.first.band.squared_error);
+  EXPECT_EQ(drawn.places[0].sessions, 2.0);
 }
 
 }  // namespace

@@ -86,13 +86,22 @@ TEST(StrideSessions, PlannedStridesHalveTheBandSooner) {
   EXPECT_LT(scores[0].mean_narrowable(NextBy::plan), 0.5 * scores[0].mean_narrowable(NextBy::chance));
 }
 
+// Neither bound needs more strides than the plan, which has the same choice and does not know the outcome.
+TEST(StrideSessions, BoundsThatKnowTheOutcomeAreBelowThePlan) {
+  const auto scores =
+      score_sessions({.beds = {"gradually_denser"}, .sessions = 3, .threads = 1, .bounds = true});
+  const double least = std::min(scores[0].mean(NextBy::outcome), scores[0].mean(NextBy::fixed));
+  EXPECT_GE(least, 1.0);
+  EXPECT_LE(least, scores[0].mean(NextBy::plan));
+}
+
 // Two sessions of 6 and 2 strides by chance, 2 and 2 planned: ratio 2, residuals 2 and -2.
 TEST(StrideSessions, RatioHasTheSpreadOfItsSessions) {
   SessionScore score;
   score.sessions = 2.0;
-  score.strides = {8.0, 4.0, 8.0};
-  score.squares = {40.0, 8.0, 40.0};
-  score.with_chance = {40.0, 16.0, 40.0};
+  score.strides = {8.0, 4.0, 8.0, 8.0, 8.0};
+  score.squares = {40.0, 8.0, 40.0, 40.0, 40.0};
+  score.with_chance = {40.0, 16.0, 40.0, 40.0, 40.0};
   const auto ratio = score.fewer(NextBy::plan);
   EXPECT_EQ(ratio.value, 2.0);
   EXPECT_NEAR(ratio.ci95_high - ratio.value, 1.96 * std::sqrt(8.0 * 2.0) / 4.0, 1e-3);

@@ -35,7 +35,10 @@ TEST(PlaceScore, FirstStridesAreJoinedInTheirOrder) {
   EXPECT_TRUE(scores[1].places.empty());
 }
 
-TEST(PlaceScore, TooFewStridesAreNoSession) { EXPECT_EQ(score_places({}, 2, {}).sessions, 0.0); }
+TEST(PlaceScore, TooFewStridesAreNoSession) {
+  const auto scores = score_beds({.beds = {"line"}, .trials = 1, .places = {2}});
+  EXPECT_EQ(scores[0].places[0].sessions, 0.0);
+}
 
 }  // namespace
 }  // namespace sandhopper

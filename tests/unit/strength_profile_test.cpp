@@ -51,6 +51,28 @@ TEST(StrengthProfile, BandWidensWhereTheFootWasNot) {
   EXPECT_FALSE(std::isfinite(solver.force_N(kProfileDepth_m + 0.001).value));
 }
 
+// A stiff layer, in which the curve falls at its lower boundary.
+double stiff_layer_N(double z) {
+  if (z < 0.015) return 3000.0 * z;
+  return z < 0.020 ? 45.0 - 3000.0 * (z - 0.015) : 30.0 + 1000.0 * (z - 0.020);
+}
+
+// An error of the depth moves a curve that falls as much as one that rises.
+TEST(StrengthProfile, BandCountsTheDepthErrorWhereTheCurveFalls) {
+  constexpr double kSurface_sd_m = 0.001;
+  const auto sd_N = [](double surface_sd_m, double depth_m) {
+    StiffnessConfig config = without_steady_drag();
+    config.profile->surface_sd_m = surface_sd_m;
+    ProfileSolver solver(config);
+    solver.add(sums_of(stiff_layer_N, {}), 1);
+    return solver.force_N(depth_m).sd;
+  };
+  for (const double depth_m : {0.010, 0.0175}) {
+    EXPECT_GT(sd_N(kSurface_sd_m, depth_m), 0.8 * 3000.0 * kSurface_sd_m) << depth_m;
+    EXPECT_LT(sd_N(1e-6, depth_m), 0.6 * 3000.0 * kSurface_sd_m) << depth_m;
+  }
+}
+
 // On ground prepared alike: in a crater a stride has no samples above the depth of the one before.
 TEST(StrengthProfile, PosteriorOfAStrideIsThePriorOfTheNext) {
   ProfileSolver solver(without_steady_drag());

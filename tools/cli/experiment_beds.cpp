@@ -14,6 +14,7 @@ namespace {
 struct Options : BedOptions {
   long strides = 200;
   std::vector<int> places;
+  std::string ground{name_of(GroundDraw::prior)};
   bool null = false;
 };
 
@@ -33,14 +34,16 @@ std::string number(const NumberScore& s) {
 
 void say_first(Session& session, const std::vector<BedScore>& scores) {
   session.say(
-      "first strides [%]: depths whose truth the 95 % band holds, median width of the band at 20 mm,");
+      "first strides [%]: depths whose truth the 95 % band holds, the same where the drawn steady drag is");
   session.say(
-      "lines called valid, slope of a line: mean error and coverage, by the profile and the joint fit");
-  session.say("  {:<17} {:>7} {:>8} {:>6} {:>6} {:>8} {:>11} {:>11} {:>9}", "bed", "strides", "coverage",
-              "width", "line", "joint l.", "profile", "joint fit", "compared");
+      "below and above zero, median width of the band at 20 mm, lines called valid, slope of a line: mean");
+  session.say("error and coverage, by the profile and the joint fit");
+  session.say("  {:<17} {:>7} {:>8} {:>6} {:>6} {:>6} {:>6} {:>8} {:>11} {:>11} {:>9}", "bed", "strides",
+              "coverage", "below", "above", "width", "line", "joint l.", "profile", "joint fit", "compared");
   for (const auto& s : scores)
-    session.say("  {:<17} {:>7.0f} {:>8} {:>6} {:>6} {:>8} {:>11} {:>11} {:>9.0f}", s.bed, s.first.strides,
-                percent(s.first.band.share()), percent(median(s.first.width_20mm)),
+    session.say("  {:<17} {:>7.0f} {:>8} {:>6} {:>6} {:>6} {:>6} {:>8} {:>11} {:>11} {:>9.0f}", s.bed,
+                s.first.strides, percent(s.first.band.share()), percent(s.first.less_drag.share()),
+                percent(s.first.more_drag.share()), percent(median(s.first.width_20mm)),
                 share(s.first.line_valid, s.first.strides), share(s.first.joint_valid, s.first.strides),
                 number(s.first.slope), number(s.first.joint_slope), s.first.slope.count);
 }
@@ -135,8 +138,7 @@ void say_null(Session& session, const std::vector<BedScore>& scores) {
 }
 
 void say_places(Session& session, const std::vector<BedScore>& scores) {
-  session.say(
-      "\nfirst strides joined to sessions of several places [%]: depths whose mean curve the band holds");
+  session.say("\nfirst strides on several places of one ground [%]: depths whose mean curve the band holds");
   for (const auto& s : scores) {
     std::string row;
     for (const auto& p : s.places)
@@ -152,6 +154,8 @@ ExitCode run(Session& session, const Options& options) {
   auto setup = options.setup<BedScoreSetup>(session);
   setup.trials = options.strides;
   setup.places = options.places;
+  const auto& grounds = EnumNames<GroundDraw>::value;
+  setup.ground = static_cast<GroundDraw>(std::ranges::find(grounds, options.ground) - grounds.begin());
   double total = 0.0;
   Progress progress("hopping", 1.0);
   setup.progress = [&](long done, long all) {
@@ -190,6 +194,11 @@ Run set_up(Arguments& arguments) {
   arguments
       .add_option("--places", o->places, "numbers of places that first strides are joined to, e.g. 1 2 4 10")
       .in_range(1, 10'000);
+  arguments
+      .add_option("--ground", o->ground,
+                  "added mass and steady drag: drawn from the fit's prior, none, or those of world.toml")
+      .one_of({EnumNames<GroundDraw>::value.begin(), EnumNames<GroundDraw>::value.end()})
+      .show_default();
   arguments.add_flag("--null", o->null, "quantiles of the event statistics in strides without the event");
   return [o](Session& session) { return run(session, *o); };
 }

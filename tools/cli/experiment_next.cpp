@@ -10,7 +10,34 @@ namespace {
 
 struct Options : BedOptions {
   long sessions = 200;
+  bool bounds = false;
 };
+
+void say_bounds(Session& session, const std::vector<SessionScore>& scores) {
+  session.say(
+      "\nbounds, with knowledge of the outcome: the stride that leaves the narrowest band, and the one");
+  session.say(
+      "set-up that ends the session first; strides (sessions not ended), the same of the narrowable part");
+  session.say("  {:<17} {:>12} {:>12} {:>12}", "bed", "by outcome", "one set-up", "narrowable");
+  SessionScore all{.bed = "all"};
+  const auto line = [&](const SessionScore& s) {
+    const auto cell = [&](NextBy by) {
+      return fmt::format("{:.2f} ({:.0f})", s.mean(by), s.unfinished[static_cast<std::size_t>(by)]);
+    };
+    session.say(
+        "  {:<17} {:>12} {:>12} {:>12}", s.bed, cell(NextBy::outcome), cell(NextBy::fixed),
+        fmt::format("{:.2f} {:.2f}", s.mean_narrowable(NextBy::outcome), s.mean_narrowable(NextBy::fixed)));
+  };
+  for (const auto& s : scores) {
+    line(s);
+    all += s;
+  }
+  line(all);
+  const auto outcome = all.fewer(NextBy::outcome), fixed = all.fewer(NextBy::fixed);
+  session.say(
+      "times fewer than by chance: by outcome {:.2f} [{:.2f}, {:.2f}], one set-up {:.2f} [{:.2f}, {:.2f}]",
+      outcome.value, outcome.ci95_low, outcome.ci95_high, fixed.value, fixed.ci95_low, fixed.ci95_high);
+}
 
 void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
   session.say("strides after the first until the widest part of the band is half of what it was,");
@@ -47,12 +74,14 @@ void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
 ExitCode run(Session& session, const Options& options) {
   auto setup = options.setup<SessionSetup>(session);
   setup.sessions = options.sessions;
+  setup.bounds = options.bounds;
   Progress progress("sessions", 1.0);
   setup.progress = [&](long done, long total) {
     progress.at(static_cast<double>(done) / static_cast<double>(total));
   };
   const auto scores = scored_beds(score_sessions, setup);
   say_sessions(session, scores);
+  if (options.bounds) say_bounds(session, scores);
   auto& json = session.result["sessions"] = nlohmann::ordered_json::array();
   for (const auto& score : scores) json.push_back(score);
   return ExitCode::ok;
@@ -64,6 +93,7 @@ Run set_up(Arguments& arguments) {
       .in_range(1L, 1'000'000L)
       .show_default();
   o->add_to(arguments, "session");
+  arguments.add_flag("--bounds", o->bounds, "also choices that know the outcome, which no plan can make");
   return [o](Session& session) { return run(session, *o); };
 }
 

@@ -113,10 +113,13 @@ void score_contact(const StrideDepthErrors& errors, double speed_mps, double exp
   score.speed_squared_m2_per_s2 += speed_mps * speed_mps;
 }
 
-void score_first(const BedStride& stride, const BedTruth& truth, const Answer& answer,
+void score_first(const BedStride& stride, const BedTruth& truth, const Answer& answer, double steady_drag,
                  FirstStrideScore& score) {
   score.strides += 1.0;
   score_band(answer.profile, truth, 0.0, stride.true_deepest_m, score.band);
+  if (steady_drag != 0.0)
+    score_band(answer.profile, truth, 0.0, stride.true_deepest_m,
+               steady_drag < 0.0 ? score.less_drag : score.more_drag);
   if (stride.true_deepest_m >= kWidthDepth_m)
     score.width_20mm.push_back(2.0 * kNormal975 * force_at(answer.profile, kWidthDepth_m).sd /
                                truth.force_at_N(kWidthDepth_m));
@@ -155,7 +158,8 @@ void score_later(const BedStride& stride, const BedTruth& truth, const Answer& a
   score_band(profile, truth, stride.true_crater_m, stride.true_deepest_m, score.fresh);
 }
 
-void score_trial(const BedScoreSetup& setup, const BedTrial& trial, BedScore& score, std::mutex& adding) {
+void score_trial(const BedScoreSetup& setup, const BedTrial& trial, double steady_drag, BedScore& score,
+                 std::mutex& adding) {
   const auto& config = setup.cycle.stiffness;
   const auto answers = answers_to(trial, config);
   const std::lock_guard lock(adding);
@@ -167,7 +171,7 @@ void score_trial(const BedScoreSetup& setup, const BedTrial& trial, BedScore& sc
     const auto& stride = trial.strides[i];
     const auto& answer = answers[i];
     if (i == 0) {
-      score_first(stride, trial.truth, answer, score.first);
+      score_first(stride, trial.truth, answer, steady_drag, score.first);
       score_contact(trial.depth_errors, stride.sums.profile.contact_mps, answer.contact.mean_m,
                     config.profile_or_default().depth_lag_s, score.contact_time);
     } else {
@@ -197,14 +201,41 @@ std::optional<Place> first_place(const BedTrial& trial) {
   return Place{.sums = stride.sums.profile, .truth = trial.truth, .deepest_m = stride.true_deepest_m};
 }
 
-std::vector<PlacesScore> scores_of_places(const BedScoreSetup& setup,
-                                          const std::vector<std::optional<Place>>& trials) {
-  std::vector<Place> places;
-  for (const auto& place : trials)
-    if (place) places.push_back(*place);
-  std::vector<PlacesScore> scores;
-  for (const int count : setup.places) scores.push_back(score_places(places, count, setup.cycle.stiffness));
-  return scores;
+std::uint64_t seed_of(const BedScoreSetup& setup, long number) {
+  return setup.first_seed + static_cast<std::uint64_t>(number);
+}
+
+// The world with ground number `number`, from 0.
+WorldConfig ground_of(const BedScoreSetup& setup, long number) {
+  return on_drawn_ground(setup.world, setup.ground, seed_of(setup, number));
+}
+
+BedTrial trial_on(const BedScoreSetup& setup, const BedCase& bed, long number, long ground, int strides) {
+  return run_bed_trial(setup.cycle, ground_of(setup, ground), bed, seed_of(setup, number), strides);
+}
+
+// First strides of `places` places on one ground. A trial without a stride is repeated once at most.
+std::vector<Place> session_of(const BedScoreSetup& setup, const BedCase& bed, long session, int places) {
+  std::vector<Place> strides;
+  for (int i = 0; i < 2 * places && static_cast<int>(strides.size()) < places; ++i) {
+    const long number = session * places + (i < places ? i : setup.trials + i - places);
+    if (const auto place = first_place(trial_on(setup, bed, number, session, 1))) strides.push_back(*place);
+  }
+  return strides;
+}
+
+PlacesScore score_of_places(const BedScoreSetup& setup, const BedCase& bed, int places,
+                            const FirstStrideScore& first) {
+  if (places == 1) return {.places = 1, .sessions = first.strides, .band = first.band};
+  PlacesScore score{.places = places};
+  std::mutex adding;
+  parallel_for(setup.trials / places, setup.threads, [&](long i) {
+    const auto session = session_of(setup, bed, i, places);
+    if (static_cast<int>(session.size()) < places) return;
+    const std::lock_guard lock(adding);
+    score_session(session, setup.cycle.stiffness, score);
+  });
+  return score;
 }
 
 }  // namespace
@@ -216,21 +247,19 @@ std::vector<BedScore> score_beds(const BedScoreSetup& setup) {
   for (const auto& bed : cases) {
     auto& score = scores.emplace_back(BedScore{.bed = bed.name});
     std::mutex adding;
-    const bool joined = !setup.places.empty() && has_common_curve(bed);
-    std::vector<std::optional<Place>> places(joined ? static_cast<std::size_t>(setup.trials) : 0);
     parallel_for(
         setup.trials, setup.threads,
         [&](long i) {
-          const auto trial = run_bed_trial(setup.cycle, setup.world, bed,
-                                           setup.first_seed + static_cast<std::uint64_t>(i), kStrides);
-          score_trial(setup, trial, score, adding);
-          if (joined) places[static_cast<std::size_t>(i)] = first_place(trial);
+          const double steady_drag = ground_of(setup, i).terrain.steady_drag_coefficient;
+          score_trial(setup, trial_on(setup, bed, i, i, kStrides), steady_drag, score, adding);
         },
         [&](long done, long) {
           if (setup.progress)
             setup.progress(done_before + done, setup.trials * static_cast<long>(cases.size()));
         });
-    if (joined) score.places = scores_of_places(setup, places);
+    if (has_common_curve(bed))
+      for (const int places : setup.places)
+        score.places.push_back(score_of_places(setup, bed, places, score.first));
     done_before += setup.trials;
     if (setup.finished) setup.finished(score);
   }
@@ -292,6 +321,8 @@ void to_json(nlohmann::ordered_json& json, const BedScore& s) {
           {"first_strides",
            {{"strides", s.first.strides},
             {"band", json_of(s.first.band)},
+            {"less_drag", json_of(s.first.less_drag)},
+            {"more_drag", json_of(s.first.more_drag)},
             {"median_width_20mm", median(s.first.width_20mm)},
             {"line_valid", s.first.line_valid},
             {"joint_valid", s.first.joint_valid},

@@ -9,6 +9,7 @@
 #include "terrain/ground_events.hpp"
 #include "tools/experiment/bed_strides.hpp"
 #include "tools/experiment/coverage_score.hpp"
+#include "tools/experiment/drawn_ground.hpp"
 #include "tools/experiment/place_score.hpp"
 
 // Scores the results of strides on beds of every family: coverage and width of the strength profile, slope of
@@ -27,9 +28,10 @@ struct NumberScore {
 struct FirstStrideScore {
   double strides = 0.0;
   CoverageScore band{};
-  std::vector<double> width_20mm{};  // 2 x 1.96 sd / true value at 20 mm, for strides that reached it
-  double line_valid = 0.0;           // strides for which a straight line is reported as a valid description
-  double joint_valid = 0.0;          // the same by the joint fit
+  CoverageScore less_drag{}, more_drag{};  // parts of `band`: steady drag below zero, and above
+  std::vector<double> width_20mm{};        // 2 x 1.96 sd / true value at 20 mm, for strides that reached it
+  double line_valid = 0.0;   // strides for which a straight line is reported as a valid description
+  double joint_valid = 0.0;  // the same by the joint fit
   // For beds that are a line: its slope, for strides that both call valid.
   NumberScore slope{}, joint_slope{};
   std::array<double, 6> shapes{};  // number of strides per GroundShape
@@ -90,10 +92,11 @@ struct BedScore {
 struct BedScoreSetup {
   CycleConfig cycle{};
   WorldConfig world{};
-  std::vector<std::string> beds{};  // names of bed_cases(); empty: those that are standard
-  long trials = 200;                // trials per bed, of three strides each
-  // Numbers of places: the first strides on beds that have a common curve are also joined to sessions of so
-  // many places.
+  std::vector<std::string> beds{};        // names of bed_cases(); empty: those that are standard
+  GroundDraw ground = GroundDraw::prior;  // drawn for each trial, or for each session of several places
+  long trials = 200;                      // trials per bed, of three strides each
+  // Numbers of places: first strides on beds that have a common curve are also joined to sessions of so many
+  // places, each on one ground.
   std::vector<int> places{};
   std::uint64_t first_seed = 1;
   unsigned threads = 2;

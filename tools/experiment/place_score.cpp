@@ -22,21 +22,15 @@ bool has_common_curve(const BedCase& bed) {
   return family.depth_spread_m == 0.0 && family.exponent_spread == 0.0;
 }
 
-PlacesScore score_places(std::span<const Place> strides, int places, const StiffnessConfig& config) {
-  PlacesScore score{.places = places};
-  const auto each = static_cast<std::size_t>(std::max(places, 1));
-  for (std::size_t first = 0; first + each <= strides.size(); first += each) {
-    const auto session = strides.subspan(first, each);
-    ProfileSolver solver(config);
-    double deepest_m = 0.0;
-    for (std::size_t i = 0; i < session.size(); ++i) {
-      solver.add(session[i].sums, i == 0 ? 1 : ProfileSolver::kFreshGround);
-      deepest_m = std::max(deepest_m, session[i].deepest_m);
-    }
-    score.sessions += 1.0;
-    score_band(solver.profile(), mean_of(session), 0.0, deepest_m, score.band);
+void score_session(std::span<const Place> session, const StiffnessConfig& config, PlacesScore& score) {
+  ProfileSolver solver(config);
+  double deepest_m = 0.0;
+  for (std::size_t i = 0; i < session.size(); ++i) {
+    solver.add(session[i].sums, i == 0 ? 1 : ProfileSolver::kFreshGround);
+    deepest_m = std::max(deepest_m, session[i].deepest_m);
   }
-  return score;
+  score.sessions += 1.0;
+  score_band(solver.profile(), mean_of(session), 0.0, deepest_m, score.band);
 }
 
 }  // namespace sandhopper

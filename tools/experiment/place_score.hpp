@@ -26,8 +26,8 @@ struct PlacesScore {
 // The curve of such a bed has the same form on every place: only its strengths and its grains differ.
 bool has_common_curve(const BedCase& bed);
 
-// Joins the strides in their order to sessions of `places` places. The truth of a session is the mean of its
-// places' curves, at depths down to the deepest point of any. Strides that fill no session are left out.
-PlacesScore score_places(std::span<const Place> strides, int places, const StiffnessConfig& config);
+// Adds a session of first strides, one on each place. Its truth is the mean of the places' curves, at depths
+// down to the deepest point of any. There must be one stride at least.
+void score_session(std::span<const Place> session, const StiffnessConfig& config, PlacesScore& score);
 
 }  // namespace sandhopper

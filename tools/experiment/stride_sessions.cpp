@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <random>
 
 #include "firmware/hop_model.hpp"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr std::size_t kFirstSetup = 7;  // index of 0.7 m/s and 375 N/m in the 15 set-ups
 constexpr std::uint64_t kSeedsOfASession = 1000, kForecasts = 100, kStrides = 200, kSeedsOfAnArm = 50;
+constexpr std::uint64_t kOutcomes = 400;  // after those of the arms
+constexpr std::array kBands{ProfileSolver::Band::whole, ProfileSolver::Band::narrowable};
 
 struct Stride {
   ProfileSums sums{};
@@ -45,41 +48,104 @@ class Session {
     range_.to_m = std::clamp(range_.to_m, range_.from_m, DepthRange{}.to_m);
   }
 
-  void run(NextBy by, SessionScore& score) const {
+  void run(NextBy by, SessionScore& score) {
     ProfileSolver solver(setup_.cycle.stiffness);
     solver.add(first_.sums, 1);
-    constexpr std::array kBands{ProfileSolver::Band::whole, ProfileSolver::Band::narrowable};
-    std::array<double, kBands.size()> enough_N{}, needed{};
-    for (std::size_t i = 0; i < kBands.size(); ++i)
-      enough_N[i] = 0.5 * widest_band_N(solver, range_, kBands[i]);
-    const auto halved = [&](std::size_t i) {
-      return widest_band_N(solver, range_, kBands[i]) <= enough_N[i];
-    };
+    Halving halving(*this, solver);
     const auto arm = static_cast<std::size_t>(by);
     std::mt19937_64 engine(seed_);
-    std::array<bool, kBands.size()> done{};
-    for (int strides = 0; strides < kMostStrides && !(done[0] && done[1]); ++strides) {
-      const StrideSetup next = choose(by, solver, engine);
-      const auto stride =
-          hop(next, seed_ + kStrides + kSeedsOfAnArm * arm + static_cast<std::uint64_t>(strides));
-      if (by == NextBy::plan) {
-        const double error_m = predicted_stride(solver, robot_, next).depth_max_m - stride.deepest_m;
-        score.reach_squared_m2 += error_m * error_m;
-        score.planned += 1.0;
-      }
+    for (int strides = 0; strides < kMostStrides && !halving.all_done(); ++strides) {
+      const Stride stride = by == NextBy::outcome ? best_outcome(solver, strides)
+                                                  : chosen_stride(by, solver, strides, engine, score);
       solver.add(stride.sums, ProfileSolver::kFreshGround);
-      for (std::size_t i = 0; i < kBands.size(); ++i) {
-        needed[i] += !done[i];
-        done[i] = done[i] || halved(i);
-      }
+      halving.count(solver);
     }
-    score.strides[arm] += needed[0];
-    score.squares[arm] += needed[0] * needed[0];
-    score.unfinished[arm] += !done[0];
-    score.narrowable[arm] += needed[1];
+    score.strides[arm] += halving.needed[0];
+    score.squares[arm] += halving.needed[0] * halving.needed[0];
+    score.unfinished[arm] += !halving.done[0];
+    score.narrowable[arm] += halving.needed[1];
+  }
+
+  // The set-up that needs least strides for each band.
+  void run_fixed(SessionScore& score) {
+    std::array<double, kBands.size()> least{kMostStrides, kMostStrides};
+    bool finished = false;
+    for (std::size_t i = 0; i < setups_.size(); ++i) {
+      ProfileSolver solver(setup_.cycle.stiffness);
+      solver.add(first_.sums, 1);
+      Halving halving(*this, solver);
+      const double most = std::max(least[0], least[1]);
+      for (int strides = 0; strides < most && !halving.all_done(); ++strides) {
+        solver.add(outcome(i, strides).sums, ProfileSolver::kFreshGround);
+        halving.count(solver);
+      }
+      finished = finished || halving.done[0];
+      for (std::size_t b = 0; b < kBands.size(); ++b)
+        if (halving.done[b]) least[b] = std::min(least[b], halving.needed[b]);
+    }
+    constexpr auto kArm = static_cast<std::size_t>(NextBy::fixed);
+    score.strides[kArm] += least[0];
+    score.squares[kArm] += least[0] * least[0];
+    score.unfinished[kArm] += !finished;
+    score.narrowable[kArm] += least[1];
   }
 
  private:
+  // Counts strides until each band is half as wide as at the beginning.
+  struct Halving {
+    Halving(const Session& session, const ProfileSolver& solver) : range(session.range_) {
+      for (std::size_t i = 0; i < kBands.size(); ++i)
+        enough_N[i] = 0.5 * widest_band_N(solver, range, kBands[i]);
+    }
+    bool all_done() const { return done[0] && done[1]; }
+    void count(const ProfileSolver& solver) {
+      for (std::size_t i = 0; i < kBands.size(); ++i) {
+        needed[i] += !done[i];
+        done[i] = done[i] || widest_band_N(solver, range, kBands[i]) <= enough_N[i];
+      }
+    }
+    DepthRange range;
+    std::array<double, kBands.size()> enough_N{}, needed{};
+    std::array<bool, kBands.size()> done{};
+  };
+
+  Stride chosen_stride(NextBy by, const ProfileSolver& solver, int strides, std::mt19937_64& engine,
+                       SessionScore& score) const {
+    const StrideSetup next = choose(by, solver, engine);
+    const auto arm = static_cast<std::uint64_t>(by);
+    const auto stride =
+        hop(next, seed_ + kStrides + kSeedsOfAnArm * arm + static_cast<std::uint64_t>(strides));
+    if (by == NextBy::plan) {
+      const double error_m = predicted_stride(solver, robot_, next).depth_max_m - stride.deepest_m;
+      score.reach_squared_m2 += error_m * error_m;
+      score.planned += 1.0;
+    }
+    return stride;
+  }
+
+  // Stride number `number`, from 0, if it is hopped with this set-up.
+  const Stride& outcome(std::size_t setup, int number) {
+    const auto key = static_cast<std::size_t>(number) * setups_.size() + setup;
+    outcomes_.resize(kMostStrides * setups_.size());
+    auto& known = outcomes_[key];
+    if (!known) known = hop(setups_[setup], seed_ + kOutcomes + key);
+    return *known;
+  }
+
+  const Stride& best_outcome(const ProfileSolver& solver, int number) {
+    std::size_t best = 0;
+    double least_N = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < setups_.size(); ++i) {
+      ProfileSolver after = solver;
+      after.add(outcome(i, number).sums, ProfileSolver::kFreshGround);
+      const double widest_N = widest_band_N(after, range_);
+      if (widest_N >= least_N) continue;
+      least_N = widest_N;
+      best = i;
+    }
+    return outcome(best, number);
+  }
+
   StrideSetup choose(NextBy by, const ProfileSolver& solver, std::mt19937_64& engine) const {
     if (by == NextBy::plan) return next_stride(solver, robot_, setups_).setup;
     if (by == NextBy::chance)
@@ -122,6 +188,7 @@ class Session {
   HopModel robot_;
   Stride first_{};
   std::vector<Stride> forecasts_{};
+  std::vector<std::optional<Stride>> outcomes_{};
   DepthRange range_{};
 };
 
@@ -167,10 +234,14 @@ std::vector<SessionScore> score_sessions(const SessionSetup& setup) {
       setup.sessions, setup.threads,
       [&](long i) {
         const auto number = static_cast<std::size_t>(i) % cases.size();
-        const Session session(setup, cases[number],
-                              setup.first_seed + kSeedsOfASession * static_cast<std::uint64_t>(i));
+        Session session(setup, cases[number],
+                        setup.first_seed + kSeedsOfASession * static_cast<std::uint64_t>(i));
         SessionScore own{.bed = cases[number].name, .sessions = 1.0};
         for (const auto by : {NextBy::chance, NextBy::plan, NextBy::oracle}) session.run(by, own);
+        if (setup.bounds) {
+          session.run(NextBy::outcome, own);
+          session.run_fixed(own);
+        }
         for (std::size_t arm = 0; arm < kNextBy; ++arm)
           own.with_chance[arm] = own.strides[arm] * own.strides[static_cast<std::size_t>(NextBy::chance)];
         const std::lock_guard lock(adding);
@@ -191,6 +262,9 @@ void to_json(nlohmann::ordered_json& json, const SessionScore& s) {
           {"narrowable_planned", s.mean_narrowable(NextBy::plan)},
           {"narrowable_of_oracle", s.mean_narrowable(NextBy::oracle)},
           {"reach_rms_m", std::sqrt(s.reach_squared_m2 / std::max(1.0, s.planned))}};
+  if (s.strides[static_cast<std::size_t>(NextBy::outcome)] == 0.0) return;  // without bounds
+  json["strides_by_outcome"] = s.mean(NextBy::outcome);
+  json["strides_fixed"] = s.mean(NextBy::fixed);
 }
 
 }  // namespace sandhopper

@@ -11,13 +11,15 @@
 // Sessions of single strides on one bed, which is prepared alike before each stride. A session ends when the
 // widest part of the profile's band is half of its width after the first stride. Set-ups are compared that
 // are drawn at random, planned by next_stride.hpp, or chosen by an oracle that has tried every set-up on the
-// true bed. Depths of interest are 5 to 50 mm, limited to the largest depth that any set-up reaches on the
-// true bed. The first stride is dropped from the middle height with the middle stiffness. A bed is drawn from
-// its family once per session; its grains differ from stride to stride.
+// true bed. Two bounds, if asked for, choose with knowledge of the outcome: the stride of those to come, one
+// for each set-up, that leaves the narrowest band; and the one set-up that, repeated, ends this session
+// first. No plan can know either. Depths of interest are 5 to 50 mm, limited to the largest depth that any
+// set-up reaches on the true bed. The first stride is dropped from the middle height with the middle
+// stiffness. A bed is drawn from its family once per session; its grains differ from stride to stride.
 namespace sandhopper {
 
-enum class NextBy : std::size_t { chance, plan, oracle };
-inline constexpr std::size_t kNextBy = 3;
+enum class NextBy : std::size_t { chance, plan, oracle, outcome, fixed };
+inline constexpr std::size_t kNextBy = 5;
 inline constexpr int kMostStrides =
     15;  // after the first; a session whose band is not halved by then counts as this many
 
@@ -50,6 +52,7 @@ struct SessionSetup {
   long sessions = 200;              // total number, distributed evenly over the beds
   std::uint64_t first_seed = 1;
   unsigned threads = 2;
+  bool bounds = false;  // also by outcome and fixed: about four times as many strides
   std::function<void(long done, long total)> progress{};
 };
 
