@@ -70,7 +70,8 @@ TEST_F(BenchTests, TheFoundEffectsTestIsRecommendedAndSaysForWhichNamesItDecides
   EXPECT_EQ(test->order,
             "Record the same hop with cold and with warm motors, each on a freshly prepared bed");
   EXPECT_THAT(test->why, StartsWith(test->order + ": "));
-  EXPECT_THAT(test->why, HasSubstr("It tells actuator.temperature from body.mass and terrain.compaction."));
+  EXPECT_THAT(test->why,
+              HasSubstr("It distinguishes actuator.temperature from body.mass and terrain.compaction."));
 }
 
 TEST_F(BenchTests, AWeighingIsNoRecording) {
@@ -89,11 +90,11 @@ TEST_F(BenchTests, ATestThatShowsAllNamesAlikeIsLeftForThatOfARival) {
   const auto rivals =
       bench_test_for({"terrain.compaction", "terrain.strengthening"}, candidates, PlantKind::intruder);
   ASSERT_TRUE(rivals);
-  EXPECT_THAT(rivals->why, HasSubstr("It tells terrain.strengthening from terrain.compaction."));
+  EXPECT_THAT(rivals->why, HasSubstr("It distinguishes terrain.strengthening from terrain.compaction."));
   const auto own = bench_test_for({"terrain.compaction", "terrain.strengthening", "clock.drift[force_N]"},
                                   candidates, PlantKind::intruder);
   ASSERT_TRUE(own);
-  EXPECT_THAT(own->why, HasSubstr("It tells terrain.compaction from clock.drift[force_N], "
+  EXPECT_THAT(own->why, HasSubstr("It distinguishes terrain.compaction from clock.drift[force_N], "
                                   "but not from terrain.strengthening."));
 }
 

@@ -70,7 +70,7 @@ TEST(DiagnoseNextTrial, IsATestOnTheBenchWhereNoTrialWithinReachTellsTheClass) {
   EXPECT_EQ(d.next.purpose, "split");
   EXPECT_THAT(d.next.order, ::testing::AnyOf(HasSubstr("Weigh the body"), HasSubstr("Tow the body")));
   EXPECT_TRUE(d.next.why.starts_with(d.next.order + ": ")) << d.next.why;
-  EXPECT_THAT(d.next.why, HasSubstr("It tells "));
+  EXPECT_THAT(d.next.why, HasSubstr("It distinguishes "));
   const auto told = to_json(d).at("next_trial");
   EXPECT_EQ(told.at("why"), d.next.why);
   EXPECT_EQ(told.at("purpose"), "split");
@@ -119,7 +119,7 @@ TEST(DiagnoseNextTrial, IsATestOnAnOscilloscopeWhereOnlyTheClocksAreInDoubt) {
   EXPECT_TRUE(d.next.setup.empty());
   EXPECT_EQ(d.next.splits, 0.0);
   EXPECT_THAT(d.next.why, HasSubstr("oscilloscope"));
-  EXPECT_THAT(d.next.why, HasSubstr("not one tells"));
+  EXPECT_THAT(d.next.why, HasSubstr("no single one of"));
   EXPECT_EQ(to_json(d).at("next_trial").at("setup"), nlohmann::ordered_json({{"kind", d.next.kind}}));
 }
 

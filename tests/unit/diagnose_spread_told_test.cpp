@@ -111,7 +111,7 @@ TEST(DiagnoseSpread, ANumberThatNobodyStatedAndThatLeansAlikeInAllTrialsIsSaid) 
     EXPECT_EQ(off.detail, Detail::only_beyond_spread);
     EXPECT_THAT(headline(off), HasSubstr("height_scale is off by"));
     EXPECT_THAT(headline(off),
-                HasSubstr("alike in 8 trials; nobody stated its spread, and 4.0 % was assumed"));
+                HasSubstr("alike in 8 trials; its spread is not stated, and 4.0 % was assumed"));
   }
   EXPECT_THAT(headline(all_longer(0.0, false)), Not(HasSubstr("alike in")));
   EXPECT_THAT(headline(all_longer(0.03, true)), Not(HasSubstr("alike in")));

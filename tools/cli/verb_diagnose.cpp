@@ -97,15 +97,15 @@ void tell_belief(Session& session, const UsedNumbers& used,
     session.say("belief {}{}", to_string(number), shows);
   }
   if (const auto defaults = defaults_of_sensors(used); !defaults.empty()) session.say("belief {}", defaults);
-  session.say("belief {} more numbers are 0 by default: not assumed", used.off);
+  session.say("belief {} more numbers are 0 by default: their physics is off", used.off);
 }
 
-// Spreads from trial to trial that a plant assumes although nobody stated them.
+// Default spreads between trials that the plant uses because none is stated.
 void tell_assumed_spreads(Session& session, const sandhopper::diagnose::Diagnosis& d) {
   for (const auto& n : d.trial_to_trial)
     if (n.is_default && std::ranges::find(d.belief, "spread." + n.name,
                                           &sandhopper::diagnose::BelievedNumber::key) == d.belief.end())
-      session.say("belief spread.{} = {} (nobody stated it: each trial may differ by that much)", n.name,
+      session.say("belief spread.{} = {} (default, not stated: each trial may differ by that much)", n.name,
                   sandhopper::diagnose::amount_in_words(n, n.believed_sd));
 }
 
@@ -113,7 +113,7 @@ void tell_assumed_spreads(Session& session, const sandhopper::diagnose::Diagnosi
 ExitCode tell_nothing_usable(Session& session, const std::filesystem::path& folder, std::size_t trials) {
   sandhopper::diagnose::Diagnosis nothing;
   nothing.notes.push_back(
-      fmt::format("none of {} trials can be used: correct what is said about them", trials));
+      fmt::format("none of {} trials can be used: correct the errors listed above", trials));
   session.result = sandhopper::diagnose::to_json(nothing);
   write(folder / "diagnosis.json", session.result.dump(2) + "\n");
   session.say("no verdict: {}", nothing.notes.front());
@@ -172,7 +172,7 @@ ExitCode diagnose(Session& session, const Options& options) {
   if (options.effects && !input.recordings.trials.empty()) return list_effects(session, input.recordings);
   const std::filesystem::path folder =
       options.output.empty() ? campaign.folder : std::filesystem::path(options.output);
-  made(folder);  // before the work: a folder that cannot be made is said at once
+  made(folder);  // before the work, so that a folder that cannot be made is reported at once
   if (input.recordings.trials.empty()) return tell_nothing_usable(session, folder, campaign.trials.size());
   if (!options.port_errors.empty())
     return tell_port_errors(session, input.recordings, options.port_errors, progress);
@@ -183,7 +183,7 @@ ExitCode diagnose(Session& session, const Options& options) {
   engine.belief = believed(used);
   engine.progress = [&](double share, const char* step) { progress.at(share, step); };
   engine.first_verdict = [&](const std::string& verdict) {
-    session.say("first verdict: {} (being weighed)", verdict);
+    session.say("first verdict: {} (preliminary)", verdict);
   };
   engine.stop = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > options.limit_s; };
   const auto first = first_answer(campaign.model);  // before this answer may overwrite it
@@ -225,9 +225,9 @@ Run set_up(Arguments& arguments) {
   arguments.add_option("--output", options->output, "folder for the answer; default: the campaign's own");
   arguments.add_off_flag("--no-report", options->report, "write no page");
   arguments
-      .add_option(
-          "--limit-s", options->limit_s,
-          "end the search at the first whole step after this many seconds and answer with what is known")
+      .add_option("--limit-s", options->limit_s,
+                  "end the search after this many seconds, at the end of the fit in progress, and answer "
+                  "with what is known")
       .in_range(0.0, 1e9);
   arguments.add_flag("--effects", options->effects,
                      "no diagnosis: list the effects that would be looked for, with equation, parameters, "

@@ -24,7 +24,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Share of the work at the start of each step, as a rule.
+// Usual share of the work that is done at the start of each step.
 constexpr double kOfErrors = 0.9, kOfBounds = 0.93, kOfNextTrial = 0.97;
 
 // Reports what the best set does not explain.
@@ -144,7 +144,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& asked) {
   Diagnosis diagnosis;
   const char* step = "";
   EngineOptions options = asked;
-  double furthest = 0.0;  // A search that is repeated does not go back.
+  double furthest = 0.0;  // The reported progress does not go back when a search is repeated.
   options.progress = [&](double share, const char* begun) {
     furthest = std::max(furthest, share);
     asked.progress(furthest, step = begun);

@@ -5,12 +5,13 @@
 #include "tools/diagnose/fit/prepare.hpp"
 
 namespace sandhopper::diagnose {
-// `most_effects`: largest number of effects in one set; one more for a cheap plant if so many leave much.
 
 struct EngineOptions {
+  // Largest number of effects in one set. For a plant that simulates fast, the search goes on to six while
+  // the set leaves more than the noise (rounds.cpp).
   std::size_t most_effects = 3;
   bool tell_evidence = false;  // Append the posterior mass of the best sets to the log.
-  // Copied to the answer, which adds its results for each of these numbers.
+  // Believed numbers with their sources. Copied to the answer, which adds the error of each that would show.
   std::vector<BelievedNumber> belief{};
   // Called with the fraction of work done and the step that begins.
   std::function<void(double share, const char* step)> progress = [](double, const char*) {};

@@ -18,9 +18,10 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kSeeds = 14;
+constexpr std::size_t kSeeds = 14;  // fits of one round from which the next round starts
+// A costly plant with more trials than the first number is searched first with as many as the second.
 constexpr std::size_t kManyTrialsInAll = 30, kSearchedTrials = 20;
-// Rows of all trials; an axis campaign of a dozen trials has about as many.
+// With more rows in all trials fewer sets are fitted. An axis campaign of a dozen trials has about as many.
 constexpr double kManyRows = 20'000.0;
 constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kMostEffects = 6;  // of a cheap plant whose best set leaves more than the noise
@@ -28,8 +29,9 @@ constexpr std::size_t kScreenedTold = 15;
 constexpr std::size_t kLeansTold = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // The noise is only a guess at this stage.
 constexpr FitOptions kHere{.columns_made_here = true};
-constexpr double kSameNoise = 0.03;
-constexpr double kNoiseHidesAll = 4.0;  // Ratio to the sensors' own noise.
+constexpr double kSameNoise = 0.03;  // Largest noise_change() after which the search is not repeated.
+// Ratio of the fitted noise to the sensors' own noise above which the noise hides most effects.
+constexpr double kNoiseHidesAll = 4.0;
 
 // "suction 0.631 N, onset power 1.5"
 std::string values_text(const Candidate& candidate, const std::vector<double>& values) {
@@ -103,7 +105,7 @@ struct Settled {
   std::vector<Point> starts;  // Further start points for the search.
 };
 
-// Share of the work at the start of each step, as a rule.
+// Usual share of the work that is done at the start of each step.
 constexpr double kOfNull = 0.02, kOfNoise = 0.06, kOfSearch = 0.1, kOfSecondSearch = 0.5;
 
 // Fits the null (nothing missing) and estimates the noise there.
@@ -137,8 +139,8 @@ std::vector<Point> seeds_of_some(Problem& problem, const Recordings& clean, cons
   return carried_over(some.problem, search.best_points(kSeeds), problem, null);
 }
 
-// Estimates the noise at the best set and searches again from the best points. Without a value `before`
-// stands: the noise is the same, or the limit of time ended the new search.
+// Estimates the noise at the best set and searches again from the best points. Returns no value if `before`
+// is still valid: the noise has not changed, or the limit of time ended the new search.
 std::optional<Search> searched_again(Problem& problem, Search& before, const SearchOptions& search_options,
                                      const EngineOptions& options, Diagnosis& diagnosis) {
   const NoiseModel noise = problem.noise;
@@ -173,7 +175,7 @@ std::optional<Search> searched_again(Problem& problem, Search& before, const Sea
   return again;
 }
 
-// Share of the progress that one round reports.
+// Progress of one round, mapped to the part of the whole from `from` to `to`.
 std::function<void(double, const char*)> progress_between(const EngineOptions& options, double from,
                                                           double to) {
   return [&options, from, to](double share, const char* step) {
@@ -186,12 +188,12 @@ SearchOptions options_of_first_round(const Problem& problem, const EngineOptions
   SearchOptions out;
   out.most_effects = options.most_effects;
   out.straight = problem.plant->starts_as_believed();
-  // Cheap simulation: fit more candidates of each screen, and proposals.
+  // If the simulation is fast, fit more candidates of each screen, and proposals.
   if (!problem.plant->is_costly()) out.fits_per_screen = out.proposals = problem.rows() < kManyRows ? 10 : 6;
   out.costly = problem.plant->is_costly();
   out.progress = progress_between(options, kOfSearch, kOfSecondSearch);
-  // If the residual hides nearly everything else and the force balances already show a law, restrict the
-  // search to the nearest candidates.
+  // If the noise hides most effects and the force balances already show a law, fit only the best candidates
+  // of each screen.
   if (noise_over_sensors(problem) > kNoiseHidesAll && balance()) {
     out.straight = false;
     out.fits_of_singles = out.fits_per_screen;
@@ -236,7 +238,7 @@ Search best_of_rounds(Problem& problem, const Recordings& clean, const Settled& 
   auto second = searched_again(problem, search, search_options, options, diagnosis);
   if (!second && singles_first && !search.stopped()) search.widen(options.most_effects);
   Search& best = second ? *second : search;
-  // A rig may lack two frictions, a wrong inertia and an encoder's zero at once.
+  // A belief may lack more: for example two frictions, a correct inertia and the encoder's zero at once.
   for (std::size_t most = options.most_effects; !costly && !best.stopped() && most < kMostEffects; ++most)
     if (best.best().set.size() == most &&
         (misfit_of(problem, best).noticeable || leaves_more_than_noise(problem, best)))

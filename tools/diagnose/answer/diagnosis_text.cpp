@@ -40,7 +40,7 @@ std::string effect_text(const FoundEffect& e) {
     text +=
         fmt::format("       {} = {}, 95 % between {} and {}{}{}\n", p.name, plain_number(p.value, 4),
                     plain_number(p.low, 4), plain_number(p.high, 4), p.limit ? "; " : "", p.limit_in_words());
-  if (e.may_be_zero()) text += "       suspected, not found: its 95 % interval holds zero\n";
+  if (e.may_be_zero()) text += "       suspected, not found: its 95 % interval contains zero\n";
   if (!e.indistinguishable_from.empty())
     text += fmt::format("       cannot be told apart on these recordings from {}\n",
                         joined(e.indistinguishable_from));
@@ -85,7 +85,7 @@ std::string absent_text(const std::vector<Bound>& absent) {
     text += fmt::format("{}{}: {} {} {}", i == 0 ? "" : "; ", absent[i].id, absent[i].parameter,
                         absent[i].is_lower ? ">" : "<", plain_number(absent[i].value, 2));
   if (absent.size() > kMostBounds)
-    text += fmt::format("; {} more bounded closer", absent.size() - kMostBounds);
+    text += fmt::format("; {} more with smaller bounds", absent.size() - kMostBounds);
   return text + "\n";
 }
 
@@ -168,8 +168,8 @@ std::string SensorNoise::in_words() const {
     text += fmt::format(", {} times the {} by which it scatters from sample to sample: ", two_digits(times()),
                         in_unit(measured, unit));
   text += is_sensor_worse ? "the sensor is worse than stated."
-                          : "the rest is slow, so the model leaves a remainder, or the sensor drifts.";
-  return text + " Errors, intervals and bounds rest on the larger noise.";
+                          : "the rest changes slowly, so it is an error of the model, or the sensor drifts.";
+  return text + " Errors, intervals and bounds are computed with the larger noise.";
 }
 
 double beyond_floor(double error, double floor) {
@@ -204,8 +204,9 @@ std::string below_the_floor(const Diagnosis& d) {
   if (d.effects.empty() || d.detail == Detail::data_fault || !std::ranges::all_of(d.fits, is_low) ||
       !taken_up_before(d).empty())
     return "";
-  return "No channel's error is clearly above its noise floor before: what was found shows in the course of "
-         "the errors, which is alike in all trials, and not in their size.";
+  return "No channel's error is clearly above its noise floor before: what was found shows in the shape of "
+         "the "
+         "errors over time, which is the same in all trials, and not in their size.";
 }
 
 std::string headline(const Diagnosis& d) {
@@ -221,13 +222,13 @@ std::string headline(const Diagnosis& d) {
   if (d.verdict == Verdict::insufficient_time)
     return "The limit of time ended the search before anything was known: give it more time (--limit-s).";
   if (d.verdict == Verdict::unknown_physics)
-    return d.first ? "Something is left that is on no list, beside what the corrected model holds. " +
-                         remainder_text(d)
+    return d.first
+               ? "Something unlisted is left, beside what the corrected model contains. " + remainder_text(d)
            : explains_little(d)
-               ? "Something is missing that is on no list, and nothing that was tried explains half of it: "
-                 "look at units, signs, columns, the part that is cut out and the belief's numbers first "
-                 "(hop campaign check)."
-               : "Something is missing that is on no list.";
+               ? "Something is missing, and no listed effect explains half of it: check units, signs, "
+                 "columns, "
+                 "the selected part of each recording and the believed numbers first (hop campaign check)."
+               : "Something is missing that no listed effect describes.";
   const std::string names = names_in_words(d);
   const auto is_name = [](const FoundEffect& e) { return !e.is_unknown(); };
   if (!names.empty() &&
@@ -256,7 +257,7 @@ std::string limit_text(const Diagnosis& d) {
   if (d.stopped_in.empty()) return "";
   return fmt::format(
       "The limit of time ended the search while {}. What follows is known so far: another set of effects may "
-      "explain the recordings better. Not looked at: physics on no list, bounds of absent effects, the next "
+      "explain the recordings better. Not checked: unlisted physics, bounds of absent effects, the next "
       "trial.",
       d.stopped_in);
 }

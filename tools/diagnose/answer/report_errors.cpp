@@ -44,7 +44,7 @@ struct Sums {
   }
 };
 
-// A trial that scatters more than the others counts less; without this note nobody would know.
+// Notes the trials that scatter more than the others and therefore count less.
 void note_noisy_trials(const Problem& problem, Diagnosis& diagnosis) {
   for (const auto& trial : problem.trials)
     for (std::size_t c = 0; c < trial->noise_factor.size(); ++c)

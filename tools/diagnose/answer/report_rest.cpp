@@ -13,7 +13,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kSeenDirectly = 0.97;  // probability of findings that the recordings show directly
+// Probability of findings that need no fit: faults of samples, broken rules. Set by hand.
+constexpr double kSeenDirectly = 0.97;
 
 void found_without_a_fit(Diagnosis& diagnosis, Detail detail) {
   if (diagnosis.verdict != Verdict::consistent && !is_open(diagnosis.verdict)) return;
@@ -27,22 +28,23 @@ void note_what_is_missing(const Prepared& prepared, Diagnosis& diagnosis) {
   for (const auto& text : prepared.left_out) diagnosis.notes.push_back("left out: " + text);
   for (const auto& channel : prepared.missing_channels)
     diagnosis.notes.push_back(fmt::format(
-        "{} was not recorded: faults of that sensor, and what only it shows, cannot be found", channel));
+        "{} was not recorded: faults of that sensor, and effects that only it shows, cannot be found",
+        channel));
   const auto trials = prepared.problem.trials.size();
   if (trials > 0 && trials < 5)
-    diagnosis.notes.push_back(fmt::format(
-        "{} trials: how far trials repeat is barely known, the test is the weaker one within trials",
-        trials));
+    diagnosis.notes.push_back(
+        fmt::format("{} trials: their scatter is hardly known, so the tests take it mostly from the noise "
+                    "within the trials",
+                    trials));
 }
 
 void report_events(const Problem& problem, const std::vector<Event>& events, Diagnosis& diagnosis) {
   for (const auto& event : events)
-    diagnosis.notes.push_back(
-        fmt::format("{}: something happened once, {:.2f} to {:.2f} s (a push, a stop?): {} is up to {:.3g} "
-                    "off, {:.0f} times as "
-                    "far over its noise as in any other stretch; left out",
-                    problem.trials[event.trial]->name, event.from_s, event.to_s, event.channel,
-                    event.furthest, event.times_others));
+    diagnosis.notes.push_back(fmt::format(
+        "{}: something happened once, {:.2f} to {:.2f} s (a push, an end stop?): {} is off by up to "
+        "{:.3g}, relative to its noise {:.0f} times as far as in any other stretch; left out",
+        problem.trials[event.trial]->name, event.from_s, event.to_s, event.channel, event.furthest,
+        event.times_others));
 }
 
 void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis) {
@@ -83,10 +85,9 @@ void report_unknown_near(double gap_closed, Diagnosis& diagnosis) {
   FoundEffect effect;
   effect.id = "unknown@" + near->port;
   effect.port = near->port;
-  effect.statement = fmt::format(
-      "Something that is on no list acts, as far as these recordings tell, at {}: {:.0f} % of the gap; {} "
-      "comes nearest.",
-      near->port, 100.0 * (1.0 - gap_closed), near->id);
+  effect.statement =
+      fmt::format("Something unlisted acts, probably at {}: {:.0f} % of the gap; {} comes nearest.",
+                  near->port, 100.0 * (1.0 - gap_closed), near->id);
   effect.equation = "not known";
   effect.mass = kLikelierThanNot;
   effect.p_value = near->p_value;
@@ -98,10 +99,10 @@ void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis) {
   diagnosis.effects.push_back(
       {.id = "unknown@" + loud.port,
        .port = loud.port,
-       .statement =
-           fmt::format("Something that is on no list acts at {}: {} scatters {:.1f} times as much as "
-                       "its sensor is believed to.",
-                       loud.port, loud.channel, loud.times),
+       .statement = fmt::format(
+           "Something unlisted acts at {}: {} scatters {:.1f} times as much as the believed noise of "
+           "its sensor.",
+           loud.port, loud.channel, loud.times),
        .equation = "not known",
        .parameters = {},
        .mass = kLikelierThanNot});
@@ -112,9 +113,10 @@ void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
   diagnosis.effects.push_back(
       {.id = "unknown@" + lean.port,
        .port = lean.port,
-       .statement = fmt::format("Something that is on no list acts at {}: {}, which differs from trial to "
-                                "trial, is off by the same in all, by {:.1f} standard errors.",
-                                lean.port, lean.nuisance, std::abs(lean.z)),
+       .statement =
+           fmt::format("Something unlisted acts at {}: {}, which should scatter from trial to trial, is "
+                       "shifted alike in all, by {:.1f} standard errors.",
+                       lean.port, lean.nuisance, std::abs(lean.z)),
        .equation = "not known",
        .parameters = {},
        .mass = kLikelierThanNot});
@@ -134,10 +136,10 @@ void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis) {
   diagnosis.effects.push_back(
       {.id = "unknown@" + port,
        .port = port,
-       .statement =
-           fmt::format("Something that is on no list acts, as far as these recordings tell, at {}: what "
-                       "is left is more than noise and goes with nothing that was recorded.",
-                       port),
+       .statement = fmt::format(
+           "Something unlisted acts, probably at {}: what is left is more than noise and depends on "
+           "nothing that was recorded.",
+           port),
        .equation = "not known",
        .parameters = {},
        .mass = kLikelierThanNot});
@@ -147,13 +149,14 @@ namespace {
 
 std::string fault_statement(const DataFault& fault) {
   if (fault.limit != 0.0)
-    return fmt::format("{} stops at {}{:.4g} while the quantity goes on.", fault.channel,
+    return fmt::format("{} stays at {}{:.4g} while the quantity continues to change.", fault.channel,
                        fault.at_both_ends ? "±" : "",
                        fault.at_both_ends ? std::abs(fault.limit) : fault.limit);
   if (fault.id == "data.stuck")
-    return fmt::format("{} stood still {} times while the quantity went on.", fault.channel, fault.stretches);
+    return fmt::format("{} held one value {} times while the quantity changed.", fault.channel,
+                       fault.stretches);
   if (fault.channel == "t_s") return fmt::format("Rows are missing {} times.", fault.stretches);
-  return fmt::format("{} fell out {} times.", fault.channel, fault.stretches);
+  return fmt::format("{} lost its samples {} times.", fault.channel, fault.stretches);
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ class Cell {
 // Finds the coordinate along which the mean gap of ten bins varies most (variance of the bin means / total),
 // and the range of the bins whose mean is at least half of the largest.
 void place_on_axis(const Problem& problem, Cell& cell) {
-  constexpr std::size_t kBins = 10;
+  constexpr std::size_t kBins = 10;  // of equal width
   double best_ratio = 0.0;
   Where& where = cell.where();
   for (std::size_t a = 0; a < problem.trials.front()->coordinates.size(); ++a) {

@@ -42,7 +42,7 @@ std::string beyond(const TrialToTrial& n) {
 }
 
 std::string alike(const TrialToTrial& n) {
-  return fmt::format("{} is off by {} alike in {} trials; nobody stated its spread, and {} was assumed",
+  return fmt::format("{} is off by {} alike in {} trials; its spread is not stated, and {} was assumed",
                      subject_of(n), amount_in_words(n, n.mean_after), n.values.size(),
                      amount_in_words(n, n.believed_sd));
 }
@@ -73,7 +73,7 @@ std::string beyond_spread(const Diagnosis& d) {
 
 std::string otherwise(const Diagnosis& d) {
   return std::ranges::any_of(d.trial_to_trial, &TrialToTrial::exceeds_after)
-             ? "Either this spread is believed too small, or something that is on no list acts there."
+             ? "Either the believed spread is too small, or something unlisted acts there."
              : "Correct what all trials share, or state the spread, and diagnose again.";
 }
 

@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kKnots = 21;
+constexpr int kKnots = 21;              // of a law
 constexpr std::size_t kLeastRows = 50;  // rows of one trial
 constexpr double kRidge = 1e-3;         // relative to the mean information of a knot
 // Prior spread of the square roots of the held-out fractions (`p_of_gains`).

@@ -10,7 +10,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr int kLawKnots = 9;
+constexpr int kLawKnots = 9;  // knots of a law of free form
 // Fraction of the values ignored at each end of the range.
 constexpr double kTails = 0.005;
 // Equally spaced knots, for variables in which a law may ripple; only if the simulation is cheap.

@@ -6,6 +6,8 @@
 #include "tools/diagnose/discrepancy/misfit.hpp"
 #include "tools/diagnose/fit/levels.hpp"
 
+// Limits below without measured values were set by hand on campaigns of this project
+// (tools/diagnose/README.md, "Open").
 namespace sandhopper::diagnose {
 namespace {
 

@@ -10,7 +10,8 @@
 // estimated from residuals, so it may have absorbed a missing effect; the deviance cannot show that.
 namespace sandhopper::diagnose {
 
-// Ratio of a channel's fitted noise to the sensor's own below which the channel shows nothing.
+// Ratio of a channel's fitted noise to the sensor's own noise below which it is no sign of missing physics.
+// Set by hand; with nothing missing at most 1.45 (see loudest_channel).
 inline constexpr double kQuietChannel = 1.3;
 
 // Key of nominal.toml that states the channel's noise; empty if there is none.
@@ -22,10 +23,12 @@ double believed_noise(const Belief& belief, const std::string& channel);
 // the channels.
 double noise_over_sensors(const Problem& problem);
 
+// Limit of LeftOver::after above which more than noise is left. Measured with nothing missing: at most 1.13.
+inline constexpr double kMoreThanNoise = 1.35;
+
 // RMS of the residual / RMS of noise and model error, without whitening, because whitening hides slow
 // deviations: median over the trials, for the channel with a stated noise in which most is left. 0 if no
 // noise is stated or if there are fewer than three trials.
-inline constexpr double kMoreThanNoise = 1.35;  // Of `after`; at most 1.13 with nothing missing.
 struct LeftOver {
   double before = 0.0;  // without the effects
   double after = 0.0;   // with them

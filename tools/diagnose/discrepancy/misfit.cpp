@@ -1,5 +1,6 @@
 #include "tools/diagnose/discrepancy/misfit.hpp"
 
+// These limits were set by hand on campaigns of this project (tools/diagnose/README.md, "Open").
 namespace sandhopper::diagnose {
 namespace {
 
@@ -7,7 +8,8 @@ namespace {
 constexpr double kMuchOfExplained = 0.1;
 // Smallest residual per row that is compared with the explained deviance.
 constexpr double kLittlePerRow = 0.05;
-// A true effect with a law of another form leaves less than this fraction of the explained deviance.
+// A true effect with a law of another form leaves less than this fraction of the explained deviance. If more
+// is left, the named effects are no explanation.
 constexpr double kNoMatterOfForm = 0.3;
 
 }  // namespace

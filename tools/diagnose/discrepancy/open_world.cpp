@@ -15,15 +15,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Prior standard deviation of the square root of a trial's gain.
+// Prior standard deviation of the square root of a trial's gain. Larger than 1, its value for noise alone.
 constexpr double kGainSpread = 2.0;
-constexpr double kSensorHandicap = 0.75;  // Prefer a law in the plant to a law in a sensor.
+// Factor on the gain of a sensor's law when laws are sorted: a law of the plant is preferred. Set by hand.
+constexpr double kSensorHandicap = 0.75;
 
 }  // namespace
 
 double p_of_gains(const std::vector<double>& gains, double spread) {
   const double n = static_cast<double>(gains.size());
-  // Nothing shows the scatter of a single trial: its gain counts as that of a normal variable.
+  // A single trial shows no scatter: its gain is treated as the square of a normal variable.
   const double alone = spread * normal_quantile(kSignificance);
   if (n < 2.0) return gains.empty() || gains[0] < alone * alone ? 1.0 : kSignificance;
   // Signed square roots, so that one trial with a huge gain does not dominate.

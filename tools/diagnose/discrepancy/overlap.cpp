@@ -13,7 +13,7 @@ namespace sandhopper::diagnose {
 using Eigen::VectorXd, Eigen::Index;
 
 double shown_by_others(const Problem& problem, const Point& point, std::size_t e) {
-  constexpr double kShows = 0.1;
+  constexpr double kShows = 0.1;  // share of its largest change from which the effect acts in a row
   Hypothesis others = point.hypothesis;
   others.candidates.erase(others.candidates.begin() + static_cast<std::ptrdiff_t>(e));
   others.values.erase(others.values.begin() + static_cast<std::ptrdiff_t>(e));

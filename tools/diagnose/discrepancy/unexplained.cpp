@@ -15,7 +15,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr std::size_t kLawsTold = 4;
+constexpr std::size_t kLawsTold = 4;  // laws in the log
 
 std::optional<FreeGain> law_of_balances(const Problem& problem, const Recordings& recordings) {
   std::vector<Balance> balances;
@@ -50,7 +50,7 @@ std::optional<FreeGain> in_place_of_small_faults(const Problem& problem, const S
   if (of_faults > kSmallShare * of_all) return std::nullopt;
   const auto gains = free_gains(problem, without->second.fit.point);
   if (const auto best_law = first_of(gains, [](const FreeGain& gain) { return !gain.family.sensor; }))
-    log.push_back(fmt::format("in the place of small faults, which gain {:.1f}: free law at {} of {}, {:.1f}",
+    log.push_back(fmt::format("in place of small faults, which gain {:.1f}: free law at {} of {}, {:.1f}",
                               of_faults, best_law->family.port, best_law->family.variable,
                               best_law->held_out));
   return first_of(gains, [&](const FreeGain& gain) { return is_law_in_place_of_faults(gain, of_faults); });
@@ -152,9 +152,10 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
   // noise well.
   if (!problem.plant->is_costly()) out.loud = loudest_channel(problem);
   if (out.loud)
-    log.push_back(fmt::format("loud: {}, {:.2f} times its sensor", out.loud->channel, out.loud->times));
-  log.push_back(fmt::format("left: {:.2f} times the noise; all trials lean by {:.1f} {}", out.left,
-                            out.lean.z, out.lean.nuisance));
+    log.push_back(fmt::format("noisy channel: {}, {:.2f} times its sensor's noise", out.loud->channel,
+                              out.loud->times));
+  log.push_back(fmt::format("left: {:.2f} times the noise; largest shift alike in all trials: z = {:.1f} {}",
+                            out.left, out.lean.z, out.lean.nuisance));
   const bool more_than_noise = !faults && (over.is_more_than_noise() || out.leans || out.loud);
   if (more_than_noise && best.set.empty() && !out.law)
     out.law = first_of(beside, [&](const FreeGain& gain) {

@@ -75,8 +75,7 @@ void stiffen(Edits& edits, double part, const Share& share) {
   edits.law(LawPort::ground_unloading, [=](const GroundState& s) { return part * share(s); });
 }
 
-// Range of a channel's values over the campaign, at least 1e-12; 1 if the channel is not predicted.
-// Bias of a sensor: at most half of `range`.
+// Bias of a sensor: at most half of `range`, the range of the channel's values.
 inline EffectParameter bias_parameter(const std::string& unit, double range) {
   return {.name = "bias_" + unit,
           .typical = 0.02 * range,
@@ -97,6 +96,7 @@ inline void add_lag(Edits& edits, const std::string& channel, std::span<const do
   if (second_s > 0.0) edits.sensor(channel, SensorEdit::Kind::lag_s, second_s);
 }
 
+// Range of a channel's values over the campaign, at least 1e-12; 1 if the channel is not predicted.
 inline double range_of(const Context& context, const std::string& channel) {
   const auto it = context.channels.find(channel);
   return it == context.channels.end() ? 1.0 : std::max(it->second.high - it->second.low, 1e-12);

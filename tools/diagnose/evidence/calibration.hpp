@@ -17,7 +17,8 @@ inline double mass_beside(double mass, double share_of_explained) {
   return share_of_explained < kSmallShare ? std::min(mass, kMostInDoubt) : mass;
 }
 
-// Largest probability of an effect that is named alone on evidence too weak to name it beside others.
+// Largest probability of an effect that is named alone on evidence too weak to name it beside others (p from
+// kSignificance to kLevel). Set by hand.
 inline constexpr double kMostOfWeak = 0.75;
 inline double mass_alone(double mass, bool is_weak) { return is_weak ? std::min(mass, kMostOfWeak) : mass; }
 

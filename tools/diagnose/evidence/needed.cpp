@@ -9,6 +9,8 @@
 #include "tools/diagnose/fit/levels.hpp"
 #include "tools/diagnose/fit/statistics.hpp"
 
+// Limits below without another source were set by hand on campaigns of this project
+// (tools/diagnose/README.md, "Open").
 namespace sandhopper::diagnose {
 namespace {
 
@@ -22,12 +24,13 @@ double trials_to_flip(std::size_t hypotheses) {
 constexpr double kComesTrue = 0.05;
 // If the real drop exceeds this fraction of the linear gain, sign flips at the fit itself count, too.
 constexpr double kMostlyTrue = 0.3;
-// An effect beside a stronger one needs kTwofold in campaigns of at least so many trials and for plants with
-// at least this relative form error. Real effects lie orders of magnitude below it there; effects that only
-// correct the form of the other law at some of its states do not reach it.
+// An effect beside a stronger one needs p < kTwofold in campaigns of at least so many trials and for plants
+// with at least this form error. There the p-values of real effects are orders of magnitude smaller; effects
+// that only correct the form of the other law at some of its states have larger ones.
 constexpr std::size_t kTrialsToDoubt = 10;
 constexpr double kFormInDoubt = 0.01;
-// An effect with a gain above this fraction of the explained deviance is far from linear.
+// An effect with a gain above this fraction of the explained deviance may be so large that the simulation is
+// not linear in it. Then sign flips, which are linear, are not required.
 constexpr double kFarShare = 0.02;
 // p-value above which a set is not worth a better fit.
 constexpr double kHopeless = 0.2;
@@ -37,8 +40,8 @@ constexpr double kAbsorbedLean = 4.0;
 // An effect explains the common nuisance offset if |z| falls below this fraction.
 constexpr double kRemoved = 0.6;
 
-// p-value by Student's t that an effect needs. That anything is missing is more probable a priori than one
-// more effect, so an effect alone needs less.
+// Largest p-value by Student's t with which an effect is needed. A priori it is more probable that something
+// is missing than that one more effect is missing, so an effect alone may have a larger one.
 double significance_needed(const BesideEvidence& beside, bool enough) {
   const bool in_doubt =
       !beside.is_strongest && beside.trials >= kTrialsToDoubt && beside.form_error >= kFormInDoubt;

@@ -10,9 +10,11 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kRemainderScale = 10.0;  // Held-out gain of a free law that adds 1 to the temperature.
-// Simulation errors and laws of another form can change the explained deviance by this relative amount.
-// Smaller differences between sets count less.
+// Held-out gain of a free law that adds 1 to the temperature. Set by hand: a smaller value makes
+// probabilities of names beside an unexplained rest more equal.
+constexpr double kRemainderScale = 10.0;
+// Simulation errors, and laws of another form, can change the explained deviance by this fraction. It adds to
+// the temperature, so smaller differences between sets count less. Both set by hand.
 constexpr double kShareOfExplained = 2e-4;
 constexpr double kShareOfForm = 0.02;  // The same, relative to the plant's form error.
 
@@ -23,7 +25,7 @@ std::map<std::vector<std::size_t>, double> weights(const Problem& problem, const
   for (const auto& [set, fit] : search.sets()) {
     // A rival may hold an effect it does not need, but it must not have more effects than the best set.
     if (fit.fit.status == FitStatus::failed || fit.refused || set.size() > search.best().set.size()) continue;
-    // The temperature is for what the recordings say, not for what the user states.
+    // The temperature applies to the evidence of the recordings, not to statements of the user.
     const double stated =
         log_prior_of_statements(problem, set) - log_prior_of_statements(problem, search.best().set);
     const double difference = search.criterion(fit) - search.criterion(search.best()) + 2.0 * stated;

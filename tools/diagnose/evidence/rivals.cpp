@@ -13,8 +13,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kDraws = 200;
-constexpr std::size_t kMostRivals = 5;
+constexpr int kDraws = 200;             // of the parameters, for a probability: standard error at most 0.035
+constexpr std::size_t kMostRivals = 5;  // explanations in one group, the best set included
 
 Edits edits_of(const Problem& problem, const SetFit& fit) {
   return edits_for(problem, fit.fit.point.hypothesis, fit.fit.point.tolerances);

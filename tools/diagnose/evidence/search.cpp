@@ -16,21 +16,22 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Prior probability that a given listed effect is missing.
+// Prior probability that a given listed effect is missing. Set by hand, near the inverse of their number.
 constexpr double kPriorOfAnEffect = 1.0 / 40.0;
-// Prior odds: "something is missing" against "one more effect is missing".
+// Prior odds: "something is missing" against "one more effect is missing". Set by hand.
 constexpr double kLikelierThanOneMore = 2.0;
-// Prior of ln(size / typical): standard deviation below 1; above it is Limits::size_spread. Small effects are
-// common. Large sizes are suspect: two effects that nearly cancel each other are both many times their
-// typical size.
+// Standard deviation of ln(size / typical) for sizes below the typical one; for larger sizes it is
+// Limits::size_spread. It is wider because small effects are common, while many times the typical size often
+// means two effects that nearly cancel each other. Set by hand.
 constexpr double kSpreadBelow = 1.8;
 
 // Skip a nuisance step that gains less than this fraction of the trial's deviance above the noise.
 constexpr double kFarGain = 1e-3;
-constexpr int kNullRestarts = 3;
-constexpr std::size_t kFitsToFreeNull = 2;
+constexpr int kNullRestarts = 3;            // most rounds of refits of the null
+constexpr std::size_t kFitsToFreeNull = 2;  // single effects that are fitted in each round
 // Keep the null fit unless the refit gains at least 2 % of what the closest single effect gained.
 constexpr double kFreed = 0.02;
+// In evaluate_straight(): candidates that are fitted, and trials in which all candidates are compared first.
 constexpr std::size_t kStraightFits = 3, kTrialsHeld = 5;
 
 std::vector<std::size_t> with(std::vector<std::size_t> set, std::size_t candidate) {
@@ -324,7 +325,7 @@ void Search::grow_sets() {
   std::vector<std::vector<std::size_t>> front{{}};
   const double sizes = static_cast<double>(options_.most_effects + 1);
   for (std::size_t size = 1; size <= options_.most_effects && !over(); ++size) {
-    // Only for the nearest set: this costs as much as a screen with all its fits.
+    // Only for the set with the smallest deviance: this costs as much as a screen with all its fits.
     const SetFit nearest = sets_.at(front.front());
     if (options_.straight && is_bent(nearest.fit)) evaluate_straight(nearest);
     share_of_screen_ = 1.0 / (sizes * static_cast<double>(front.size()));
@@ -341,7 +342,8 @@ void Search::grow_sets() {
     const auto before = best_;
     choose_best();
     const SetFit& smaller = sets_.at(front.front());
-    // While physics is missing the trials differ for that reason. Their scatter must not end the growth.
+    // While physics is missing, the trials also scatter for that reason. That scatter must not end the
+    // growth.
     const double noise = std::min(dispersion_, std::max(1.0, smaller.fit.deviance / problem_->rows()));
     const bool worse = criterion(*grown.front(), noise) >= criterion(smaller, noise);
     front.clear();

@@ -21,8 +21,8 @@ constexpr std::size_t kNearestRivals = 3;
 constexpr double kPromiseShort = 1.5;
 // Fraction of the gain of a law of free form that a set must explain to replace the law.
 constexpr double kNearlyAll = 0.9;
-constexpr double kLinearError =
-    0.05;  // Error of a proposal's linear deviance, relative to the explained deviance.
+// Error of a proposal's linear deviance, relative to the explained deviance.
+constexpr double kLinearError = 0.05;
 // Refit a set if its deviance / dispersion exceeds the proposal's by more than this.
 constexpr double kCaught = 3.0;
 

@@ -12,14 +12,16 @@
 // (search_judge.cpp).
 namespace sandhopper::diagnose {
 
-// Smallest amplitude that is named, in typical sizes.
+// Smallest amplitude that is named, in typical sizes. Set by hand.
 inline constexpr double kSmallestOfTypical = 0.08;
 // Smallest drop of the deviance that justifies a fit: with a smaller one two sets can be exchanged.
 inline const double kWorthAFit = 2.0 * std::log(kLimits.exchangeable);
-// Sets within this fraction of the explained deviance are extended or used as start points.
+// Sets whose deviance is behind the best one's by less than this fraction of the explained deviance are
+// extended or used as start points. Set by hand: a larger value costs more fits.
 inline constexpr double kNearlyAsGood = 0.35;
-inline constexpr double kRival =
-    20.0;  // Largest distance in the criterion at which a rival's fit is completed.
+// The fit of a set is completed if its criterion exceeds the best one by less. Set by hand: a larger value
+// costs more fits.
+inline constexpr double kRival = 20.0;
 
 // Settings for the first fit of a set.
 inline constexpr FitOptions kRough{.max_iterations = 6, .tolerance = 2.0, .refresh = false};

@@ -110,7 +110,7 @@ void mark_outliers(Problem& problem, const std::vector<VectorXd>& residuals) {
 // factor. They then neither raise the noise of the others nor count as much. `residuals` are divided by the
 // factor.
 void find_noisy_trials(Problem& problem, std::vector<VectorXd>& residuals) {
-  constexpr double kNoisy = 2.0;
+  constexpr double kNoisy = 2.0;  // ratio to the median trial from which a trial has its own noise
   const std::size_t channels = problem.channels.size();
   for (auto& trial : problem.trials) trial->noise_factor.assign(channels, 1.0);
   for (std::size_t c = 0; c < channels; ++c) {

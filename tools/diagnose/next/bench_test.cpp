@@ -58,7 +58,7 @@ std::optional<RecommendedBenchTest> bench_test_for(const std::vector<std::string
     if (told_apart.empty()) continue;
     RecommendedBenchTest out{test->kind, {}, sentence_of(*test, plant, own->channel)};
     out.order = out.why.substr(0, out.why.find(": "));
-    out.why += fmt::format(" It tells {} from {}", name, listed(told_apart, "and"));
+    out.why += fmt::format(" It distinguishes {} from {}", name, listed(told_apart, "and"));
     out.why += alike.empty() ? "." : fmt::format(", but not from {}.", listed(alike, "or"));
     return out;
   }

@@ -9,7 +9,9 @@
 
 namespace sandhopper::diagnose {
 
-inline constexpr double kPriceOfTrouble = 0.1;  // Doublings subtracted per unit of cost.
+// Doublings of information that one unit of cost must give. Set by hand: a larger value prefers usual
+// set-ups.
+inline constexpr double kPriceOfTrouble = 0.1;
 
 // The trial with the largest worth minus cost (the first of equals). `worth`: without cost, in doublings of
 // the information; `all`: the worth of every trial.

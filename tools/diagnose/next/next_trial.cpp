@@ -22,11 +22,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// The limits of this file were set by hand.
 constexpr double kNarrow = 0.5;  // A bound below this fraction of the typical size is narrow enough.
 // Smallest worth of a recommended trial, in doublings of the information.
 constexpr double kWorthATrial = 0.2;
-constexpr double kASession = 10.0;    // Largest number of repeats that is still recommended.
-constexpr double kEnoughGain = 10.0;  // Gain / gain that separates two explanations; more counts no further.
+constexpr double kASession = 10.0;  // Largest number of repeats that is still recommended.
+// Largest ratio that counts: gain of a trial / gain that separates two explanations.
+constexpr double kEnoughGain = 10.0;
 // Number of points of a predicted trace.
 constexpr std::size_t kMostPoints = 400;
 
@@ -129,11 +131,11 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
   next.second = groups[shown.group].names[shown.j];
   show(problem, planned.model(choice.trial), all[shown.group].predictions(problem, planned, shown.i, shown.j),
        next);
-  next.why += fmt::format(" Chance that one such trial tells it from {}.", chances);
+  next.why += fmt::format(" Chance that one such trial distinguishes it from {}.", chances);
   if (next.splits >= 0.5) return;
   const double repeats = std::ceil(1.5 * apart(all[shown.group]) / std::max(most, 1e-3));
   if (repeats <= kASession) {
-    next.why += fmt::format(" About {:.0f} of them would.", repeats);
+    next.why += fmt::format(" About {:.0f} of them would do so.", repeats);
     return;
   }
   std::string others;
@@ -143,7 +145,8 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
       others += (others.empty() ? "" : ", ") + name;
   next = {};
   next.why = fmt::format(
-      "None: of {} trials that can be done not one tells {} from {}; the best would have to be repeated "
+      "None: no single one of {} possible trials distinguishes {} from {}; the best would have to be "
+      "repeated "
       "about {:.0f} times.",
       planned.size(), groups[shown.group].names[0], others, repeats);
 }
@@ -177,7 +180,7 @@ void sharpen(const Problem& problem, const PlannedTrials& planned, const Search&
   });
   if (choice.worth < kWorthATrial) {
     next.why =
-        "None needed to tell what it is: no single trial narrows the intervals by more than a few per cent.";
+        "None needed to name the effect: no single trial narrows the intervals by more than a few per cent.";
     return;
   }
   take(planned[choice.trial], "sharpen", next);
@@ -194,7 +197,7 @@ void map_further(const Problem& problem, const PlannedTrials& planned, const Sea
                  const FreeGain& rest, NextTrial& next) {
   const Point& point = search.best().fit.point;
   const Edits base = edits_for(problem, point.hypothesis, point.tolerances);
-  constexpr double kProbe = 0.2;
+  constexpr double kProbe = 0.2;  // step of the derivatives, in scales of the port
   std::vector<Direction> directions;
   for (const auto& term : rest.family.terms) directions.push_back({with_term(base, term, kProbe), kProbe});
   const auto k = static_cast<Index>(directions.size());
@@ -239,7 +242,7 @@ void bound_closer(const Problem& problem, const PlannedTrials& planned, Search& 
   }
   const Point& point = search.best().fit.point;
   Hypothesis with = point.hypothesis;
-  constexpr double kProbe = 0.4;
+  constexpr double kProbe = 0.4;  // step of the derivative, in typical sizes
   std::vector<double> values;
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     values.push_back(i == 0 ? std::min(kProbe * candidate.parameters[0].typical, candidate.parameters[0].high)
@@ -280,7 +283,7 @@ void record_again(const Recordings& recordings, const Diagnosis& diagnosis, Next
   next.setup = first.setup;
   next.setup.erase("session");
   next.order = trial_in_words(next.kind, {}, next.setup, Telling::order);
-  next.why = fmt::format("again as recorded, but mend {} first. The fault must be gone.",
+  next.why = fmt::format("again as recorded, after a repair of {}. The fault must not appear again.",
                          diagnosis.effects.front().channel);
 }
 

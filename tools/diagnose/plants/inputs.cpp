@@ -28,7 +28,7 @@ namespace {
 // Weights of the third divided difference of four samples: a parabola through them gives 0. Where no row is
 // missing they are those of even steps, because small differences between time stamps are their jitter.
 std::array<double, 4> third_difference(std::span<const double, 4> time_s) {
-  constexpr double kUneven = 1.5;
+  constexpr double kUneven = 1.5;  // ratio of two intervals from which a row is missing
   double least = time_s[1] - time_s[0], most = least;
   for (std::size_t i = 2; i < time_s.size(); ++i) {
     least = std::min(least, time_s[i] - time_s[i - 1]);
@@ -133,8 +133,10 @@ Samples without_repeats(const Samples& s) {
 }
 
 std::vector<double> ages_s(const Trial& trial, const std::string& channel, double rate_Hz) {
-  constexpr int kPhases = 100, kRates = 15;  // kRates on each side
-  constexpr double kAgree = 0.97, kRowsPerTick = 1.02, kRateUnknown = 0.12;
+  constexpr int kPhases = 100, kRates = 15;  // tried phases; tried rates on each side
+  constexpr double kAgree = 0.97;            // least share of the rows that a rate and phase must match
+  constexpr double kRowsPerTick = 1.02;      // least rows per sample of a sensor that is slower than the rows
+  constexpr double kRateUnknown = 0.12;      // largest relative error of the believed rate
   const auto* values = trial.find(channel);
   if (values == nullptr || trial.time_s.size() < 20 || rate_Hz <= 0.0) return {};
   const auto& t = trial.time_s;

@@ -39,7 +39,7 @@ PlantKind kind_of(CampaignPlant plant) {
 
 namespace {
 
-// Takes back channels that read_trial() left out because they stay at one value, if they do so in all trials.
+// Restores channels that read_trial() left out because they stay at one value, if they do so in all trials.
 // The diagnosis then finds and reports the fault.
 void take_what_is_at_one_value(const std::vector<std::vector<TrialRecording::Channel>>& of_trials,
                                std::vector<Trial>& trials) {
@@ -76,8 +76,8 @@ void translate_setups(const Campaign& campaign, CampaignInput& input) {
                               .severity = FindingSeverity::note,
                               .file = campaign.file.string(),
                               .channel = key,
-                              .what = fmt::format("is taken for {}", usual),
-                              .cure = fmt::format("write {} to say so", usual)});
+                              .what = fmt::format("is used as {}", usual),
+                              .cure = fmt::format("write {} in place of it", usual)});
   }
 }
 
@@ -129,7 +129,7 @@ void take_trial(const CampaignTrial& described, const TrialRecording& recording,
       recordings.words[entry.key].insert(*word);
   trial.time_s = recording.t_s;
   for (const auto& channel : recording.channels) trial.channels[channel.name] = channel.values;
-  // A range that ends too early shows in each trial; its other samples say what the quantity did.
+  // If a range ends too early, it does so in each trial; the samples within it still show the quantity.
   for (const auto& channel : recording.at_one_value)
     if (recording.saturation(channel.name) != nullptr && channel.values.size() == trial.time_s.size())
       trial.channels[channel.name] = channel.values;
@@ -147,16 +147,16 @@ void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInpu
   };
   const std::size_t all = input.recordings.trials.size();
   if (free.without_torque > 0)
-    tell(fmt::format("is not recorded in {} of {} trials: nothing is taken to drive the axis there, 0 N m",
+    tell(fmt::format("is not recorded in {} of {} trials: the axis is assumed to run free there (0 N m)",
                      free.without_torque, all),
          free.unstated > 0
              ? "record it, or write motor_enabled = true for a trial that is driven, which is then left out"
              : "");
   if (free.held > 0)
-    tell(fmt::format(
-             "is unknown at the start of {} of {} trials, where something holds the axis, for {:.2f} s "
-             "at most; these rows are not used",
-             free.held, all, free.longest_held_s),
+    tell(fmt::format("is unknown at the start of {} of {} trials, where something holds the axis for at most "
+                     "{:.2f} s; "
+                     "these rows are not used",
+                     free.held, all, free.longest_held_s),
          "cut the recording where the axis is let go");
 }
 
@@ -215,7 +215,7 @@ CampaignInput read_campaign(const Campaign& campaign) {
           {.kind = FindingKind::no_time,
            .severity = FindingSeverity::trial_unusable,
            .file = described.file.string(),
-           .what = "has no time, which a diagnosis needs: it compares courses in time",
+           .what = "has no time, which a diagnosis needs",
            .cure = "add a column of the time; hop terrain gives the depth law without one"});
     if (!recording.usable() || !recording.has_time) {
       ++input.unusable;

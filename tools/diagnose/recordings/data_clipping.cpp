@@ -11,6 +11,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Limits of this file without a reason beside them were set by hand on campaigns of this project.
 constexpr double kPileUp = 0.01;     // least share of all samples that equal the end value
 constexpr std::size_t kLeast = 6;    // least number of samples there
 constexpr std::size_t kFewest = 10;  // least number of samples for the noise of a trial

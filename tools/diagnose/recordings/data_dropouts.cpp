@@ -7,16 +7,18 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Limits of this file without a reason beside them were set by hand on campaigns of this project.
 constexpr double kIsolated = 0.3;  // a value farther from all others, as a share of their range, is isolated
 constexpr double kOften = 2.0;     // least mean number of gaps in trials that have any
 constexpr double kManyTrials = 0.5;  // least share of the trials that have gaps
-// Lost rows are a fault only if many are lost (share of all rows), or fewer in long gaps (rows).
+// Lost rows are a fault if at least kShareLost of all rows are lost; if the usual gap has kLongGap rows or
+// more, from kShareInLongGaps on.
 constexpr double kShareLost = 0.12, kShareInLongGaps = 0.01, kLongGap = 6.0;
 constexpr std::size_t kEnough = 3;  // least number of proven dropouts
 constexpr double kGauss = 2.5;      // greatest density of a normal distribution: 1 / (2.5 sd)
 // Expected number of chance stretches in the campaign, below which one is a dropout.
 constexpr double kDropoutsByChance = 0.001;
-// Share of the neighbours at the code, above which the channel rests there.
+// Share of the neighbours at the code above which the quantity rests at the code.
 constexpr double kSeldomCode = 0.3;
 
 // Values that may mark a lost sample: zero, and an end of the range that is isolated from all other values.

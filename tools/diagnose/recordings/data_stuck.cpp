@@ -12,6 +12,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// Limits of this file without a reason beside them were set by hand on campaigns of this project.
 constexpr std::size_t kNeighbours = 10;  // samples on each side
 // Largest probability of a stretch by chance, from the share of repeats nearby.
 constexpr double kByChance = 1e-6;
@@ -19,11 +20,9 @@ constexpr double kByChanceOfFast = 1e-5;    // the same for a fast quantity, fro
 constexpr double kMostRepeats = 0.6;        // share of repeats nearby, above which the sensor rests
 constexpr double kCertainStretch_s = 0.06;  // a shorter stretch may also be lost samples
 constexpr std::size_t kShortest = 4;        // samples
-// The same for a quantity that changes by many grid steps per sample.
-constexpr std::size_t kShortestOfFast = 3;
-constexpr double kFast = 50.0;  // grid steps per sample
-// Share of pairs among all runs: a fast quantity repeats less often.
-constexpr double kSeldom = 0.02;
+constexpr std::size_t kShortestOfFast = 3;  // the same for a fast quantity
+constexpr double kFast = 50.0;              // grid steps per sample
+constexpr double kSeldom = 0.02;  // share of pairs among all runs: a fast quantity repeats less often
 // A drive computes its speed from encoder counts, so at constant speed the same value repeats.
 constexpr std::size_t kShortestOfSpeed = 10;
 constexpr std::string_view kPosition = "position_rad", kSpeed = "velocity_radps";
@@ -212,7 +211,7 @@ std::size_t shortest_by_number(const Runs& runs) {
 
 // True if a constant speed is real: the position moved by speed times duration, within 2 %.
 bool position_went_along(const SampledChannel& speed, const std::string& channel, const Stretch& stretch) {
-  constexpr double kAgree = 0.02;
+  constexpr double kAgree = 0.02;  // relative
   if (!channel.ends_with(kSpeed)) return false;
   const auto* position =
       speed.trial->find(channel.substr(0, channel.size() - kSpeed.size()).append(kPosition));
@@ -230,6 +229,7 @@ const std::vector<double>* speed_of(const SampledChannel& position, const std::s
 
 // True if a constant position is real: its speed is only noise around zero.
 bool speed_was_none(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
+  // Least number of samples; largest variance over that of white noise; largest mean in standard errors.
   constexpr double kEnough = 8.0, kWhite = 2.0, kSigma = 4.0;
   const auto* speed = speed_of(position, channel);
   if (speed == nullptr) return false;

@@ -9,6 +9,7 @@
 namespace sandhopper::diagnose {
 namespace {
 
+// The limits were set by hand.
 constexpr std::uint32_t kStretchesOfATrial = 4;  // least number of stretches of a trial
 constexpr std::size_t kStretches = 40;           // stretches for each possible event
 // Least mean square over the noise; the event itself has raised the noise.

@@ -51,7 +51,7 @@ std::vector<std::string> ports_of(const Diagnosis& d) {
 StudyAnswer where(const Diagnosis& d) {
   StudyAnswer box{"Where", {}, {}, 3};
   if (nothing_found(d)) {
-    box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent ? "Nowhere" : "Not to be said");
+    box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent ? "Nowhere" : "Cannot be said");
     const PhaseError* worst = nullptr;
     for (const auto& e : d.phase_errors)
       if (e.samples >= 10 && (worst == nullptr || e.before / e.floor > worst->before / worst->floor))
@@ -77,7 +77,7 @@ StudyAnswer where(const Diagnosis& d) {
     box.lines.emplace_back(Style::text,
                            d.detail == Detail::data_fault
                                ? "The faulty samples are left out; the rest agrees with the simulation."
-                               : "Spread over the trials: no channel and phase stands out alone.");
+                               : "No channel and phase alone shows it clearly.");
   return box;
 }
 
@@ -96,7 +96,7 @@ StudyAnswer what(const Diagnosis& d) {
   if (nothing_found(d)) {
     const auto beyond = beyond_spread(d);
     box.lines.emplace_back(Style::lead, d.verdict == Verdict::consistent && !beyond.empty()
-                                            ? "Nothing, if numbers differ from what is believed"
+                                            ? "Nothing, if numbers differ more than believed"
                                         : d.verdict == Verdict::consistent        ? "Nothing is missing"
                                         : d.verdict == Verdict::insufficient_time ? "Too little time"
                                                                                   : "Too few trials");
@@ -119,7 +119,7 @@ StudyAnswer what(const Diagnosis& d) {
     box.lines.emplace_back(Style::lead, e.id + (e.channel.empty() ? "" : " on " + e.channel));
     box.lines.emplace_back(Style::text, e.statement);
     if (e.may_be_zero())
-      box.lines.emplace_back(Style::text, "Suspected, not found: its 95 % interval holds zero.");
+      box.lines.emplace_back(Style::text, "Suspected, not found: its 95 % interval contains zero.");
     if (d.effects.size() < 3) box.lines.emplace_back(Style::equation, e.equation);
     if (!e.parameters.empty()) box.lines.emplace_back(Style::text, parameters_of(e));
   }
@@ -133,13 +133,14 @@ StudyAnswer how_sure(const Diagnosis& d) {
   if (nothing_found(d)) {
     box.lines.emplace_back(Style::lead, fmt::format("{} trials", d.trials));
     box.lines.emplace_back(
-        Style::text, d.verdict == Verdict::consistent
-                         ? fmt::format("None of {} effects that this plant can have is needed; whatever is "
-                                       "there lies below its bound.",
-                                       d.absent.size())
-                     : d.verdict == Verdict::insufficient_time
-                         ? "The limit of time ended the search before an effect was found needed."
-                         : "How far trials repeat is not known well enough to tell an effect from chance.");
+        Style::text,
+        d.verdict == Verdict::consistent
+            ? fmt::format("No listed effect is needed. The recordings bound the size of {} effects, see "
+                          "\"What is absent\".",
+                          d.absent.size())
+        : d.verdict == Verdict::insufficient_time
+            ? "The limit of time ended the search before an effect was found needed."
+            : "The scatter between trials is not known well enough to distinguish an effect from chance.");
     return box;
   }
   bool classes = false;
@@ -155,13 +156,13 @@ StudyAnswer how_sure(const Diagnosis& d) {
   if (!d.unknown.empty())
     box.lines.emplace_back(
         Style::text,
-        fmt::format("A free law of {} at {}, which no effect on the list stands for, predicts trials it was "
-                    "not fitted to ({}). It takes {:.0f} % of the gap between simulation and recording.",
+        fmt::format("A free law of {} at {}, which no listed effect describes, predicts trials to which it "
+                    "was not fitted ({}). It closes {:.0f} % of the gap between simulation and recording.",
                     d.unknown.front().curve.variable, d.unknown.front().port,
                     p_text(d.unknown.front().p_value), 100.0 * d.unknown.front().share));
   else if (!classes && d.detail == Detail::known && d.stopped_in.empty())
     box.lines.emplace_back(Style::text, "No other effect explains these recordings as well.");
-  if (d.detail == Detail::data_fault) box.lines.emplace_back(Style::text, "Seen in the samples themselves.");
+  if (d.detail == Detail::data_fault) box.lines.emplace_back(Style::text, "The samples themselves show it.");
   return box;
 }
 
@@ -206,7 +207,7 @@ StudyAnswer what_next(const Diagnosis& d) {
     box.lines.emplace_back(Style::lead, "No trial to recommend");
     if (!d.next.why.empty()) box.lines.emplace_back(Style::text, d.next.why);
     if (!d.stopped_in.empty())
-      box.lines.emplace_back(Style::quiet, "Not looked at: the limit of time ended the search before.");
+      box.lines.emplace_back(Style::quiet, "Not chosen: the limit of time ended the search before.");
     return box;
   }
   box.lines.emplace_back(Style::lead, d.next.order);

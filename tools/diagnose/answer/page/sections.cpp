@@ -75,8 +75,8 @@ StudySection errors_section(const Diagnosis& d) {
 
 StudySection noise_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"channel",         "who stated the noise",  "what it means",
-                   "stated",          "from sample to sample", "used by the fit",
+  table.columns = {"channel",         "source of the stated noise", "what it means",
+                   "stated",          "from sample to sample",      "used by the fit",
                    "used over stated"};
   table.text_columns = 3;
   table.whole = true;
@@ -164,7 +164,7 @@ StudySection effects_section(const Diagnosis& d) {
   for (const auto& e : d.effects)
     if (e.may_be_zero())
       section.items.emplace_back(
-          fmt::format("{} is suspected, not found: its 95 % interval holds zero.", e.id));
+          fmt::format("{} is suspected, not found: its 95 % interval contains zero.", e.id));
   for (const auto& e : d.effects)
     if (!e.indistinguishable_from.empty()) {
       std::string others;
@@ -176,7 +176,7 @@ StudySection effects_section(const Diagnosis& d) {
 }
 
 StudySection unknown_section(const Diagnosis& d) {
-  StudySection section{"The force that is on no list", {}};
+  StudySection section{"The unlisted force", {}};
   for (const auto& u : d.unknown) {
     StudySeries band{"estimate with 95 % band", u.curve.at, u.curve.value, {}, {},
                      StudySeries::Mark::band,   "purple"};
@@ -198,7 +198,8 @@ StudySection where_section(const Diagnosis& d) {
   StudyTable table;
   table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the change, %", "p", "trials"};
   table.text_columns = 4;
-  constexpr std::size_t kMostRows = 15;  // A hopper has up to 84 cells; the first ones tell most.
+  constexpr std::size_t kMostRows =
+      15;  // A hopper has up to 84 cells; the first ones have the largest shares.
   for (const auto& w : d.where | std::views::take(kMostRows))
     table.rows.push_back({w.channel, w.phase_in_words(), w.port, quantity_of(w.coordinate).label(),
                           to_digits_of(w.range_low, w.range_high - w.range_low),
@@ -206,7 +207,7 @@ StudySection where_section(const Diagnosis& d) {
                           in_percent(w.share_of_excess), probability_text(w.p_value),
                           fmt::format("{}", w.trials.size())});
   table.note =
-      "Channels and phases, or thirds of a trial, in which what was found changes the recordings by more "
+      "Channels and phases (or thirds of a trial) in which what was found changes the recordings by more "
       "than "
       "their noise in at least one trial; if nothing was named, in which the simulation as believed errs by "
       "more. At most one in twenty is there by chance. Share: of the squared change, relative to the noise, "
@@ -239,8 +240,7 @@ StudySection absent_section(const Diagnosis& d) {
 
 StudySection belief_section(const Diagnosis& d) {
   StudyTable table;
-  table.columns = {"number",      "who said it",           "value",  "unit",
-                   "usual error", "error that would show", "matters"};
+  table.columns = {"number", "source", "value", "unit", "usual error", "error that would show", "matters"};
   table.text_columns = 2;
   for (const auto& n : d.belief) {
     auto value = n.low == n.high ? number(n.low) : fmt::format("{} to {}", number(n.low), number(n.high));
@@ -254,13 +254,13 @@ StudySection belief_section(const Diagnosis& d) {
                           n.error_that_shows > 0.0 && n.matters() ? "yes" : ""});
   }
   table.note =
-      "Every number that the answer rests on. Usual error: half a unit of the last digit that was written, "
+      "Every number that the answer uses. Usual error: half a unit of the last digit that was written, "
       "or the "
       "whole of a default that nobody stated. Beyond the error that would show, the recordings contradict "
       "the number "
       "(95 %), with what differs from trial to trial fitted along. A number matters where its usual error is "
       "larger: "
-      "then the answer rests on how well it is known.";
+      "then the answer depends on how well it is known.";
   return {"What was believed", {table}};
 }
 

@@ -44,7 +44,7 @@ StudyTable numbers_table(const Diagnosis& d) {
                    changed ? "sd as believed" : "sd"};
   if (changed)
     table.columns.insert(table.columns.end(), {"mean with what was found", "sd with what was found"});
-  table.columns.emplace_back("furthest, in believed sd");
+  table.columns.emplace_back("largest value, in believed sd");
   for (const auto& n : d.trial_to_trial) {
     double furthest = 0.0;
     for (const auto& value : n.values) furthest = std::max(furthest, std::abs(value.after));

@@ -24,7 +24,7 @@ const EffectRegistration kEffect(
      .bench_tests = {{.kind = "clamped",
                       .sentence = "Block the far end of the shaft and raise the torque in steps: the "
                                   "recorded angle follows the torque only if the shaft twists; inertia, "
-                                  "friction and delays have nothing to act on at rest."}},
+                                  "friction and delays have no effect at rest."}},
      .plants = {PlantKind::rotary_axis},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v, Edits& edits) {

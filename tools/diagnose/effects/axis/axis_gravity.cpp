@@ -22,7 +22,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 const EffectRegistration kEffect(
     {.id = "axis.gravity",
      .port = Port::inertia,
-     .statement = "Gravity pulls on the axis otherwise than believed.",
+     .statement = "The torque of gravity on the axis is not the believed one.",
      .equation = "tau += -dG sin(theta)",
      .bench_tests =
          {{.sentence =

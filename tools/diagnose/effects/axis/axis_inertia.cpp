@@ -20,7 +20,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 const EffectRegistration kEffect(
     {.id = "axis.inertia",
      .port = Port::inertia,
-     .statement = "The inertia of the axis is not what is believed.",
+     .statement = "The inertia of the axis is not the believed one.",
      .equation = "J -> J + dJ",
      .bench_tests =
          {{.kind = "motion",

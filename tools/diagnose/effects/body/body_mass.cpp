@@ -34,13 +34,13 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 const EffectRegistration kEffect(
     {.id = "body.mass",
      .port = Port::inertia,
-     .statement = "The body's mass is not what is believed.",
+     .statement = "The body's mass is not the believed one.",
      .equation = "m -> m + e (p m + (1 - p) m_0), p = 1 if all trials have one mass m_0",
-     .bench_tests = {{.sentence = "Weigh the body on a balance in air: a wrong mass shows there, and nothing "
-                                  "of drag, added mass or a sensor of the drop does.",
+     .bench_tests = {{.sentence = "Weigh the body on a balance in air: a wrong mass shows there; drag, added "
+                                  "mass and faults of the drop's sensors do not.",
                       .plants = {PlantKind::falling_body}},
                      {.sentence = "Weigh the body on a balance, without foot and links: a wrong mass shows "
-                                  "there, and nothing of the motors, the rail, the cable or a sensor does.",
+                                  "there; motors, rail, cable and sensors have no effect.",
                       .plants = {PlantKind::hopper}}},
      .plants = {PlantKind::falling_body, PlantKind::hopper},
      .parameters = parameters,

@@ -14,7 +14,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 const EffectRegistration kEffect(
     {.id = "rail.tilt",
      .port = Port::rail,
-     .statement = "The rail is not upright.",
+     .statement = "The rail is not vertical.",
      .equation = "g -> g cos(alpha), F += -mu m g sin(alpha) sign(v)",
      .bench_tests = {{.sentence = "Hold a plumb line to the rail: a tilt shows there at once, while a wrong "
                                   "mass, friction or a faulty accelerometer leaves the rail upright."}},
@@ -23,7 +23,7 @@ const EffectRegistration kEffect(
          [](const Context&, const std::string&) {
            return std::vector<EffectParameter>{
                {.name = "tilt_rad", .typical = 0.06, .low = 0.0, .high = 0.5},
-               // Between body and rail: from balls that roll to dry bushes.
+               // Between body and rail: from rolling bearings (0.01) to dry bushings (0.5).
                {.name = "friction_coefficient", .typical = 0.1, .low = 0.01, .high = 0.5, .shapes = {0.2}}};
          },
      .apply = apply});

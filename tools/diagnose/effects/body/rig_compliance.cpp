@@ -31,8 +31,8 @@ const EffectRegistration kEffect(
      .equation = "z = z_recorded - F / k_r",
      .bench_tests = {{.kind = "clamped",
                       .sentence =
-                          "Press the plate on a rigid block: the recorded position goes on with the force "
-                          "only if the rig yields, because a bed or its surface plays no part."}},
+                          "Press the plate on a rigid block: the recorded position changes with the force "
+                          "only if the rig yields; bed and surface have no effect."}},
      .plants = {PlantKind::intruder},
      .parameters = parameters,
      .apply = apply,

@@ -10,7 +10,7 @@ const EffectRegistration kEffect(
      .equation = "tau = K_t (1 + e) i",
      .bench_tests = {{.sentence =
                           "Turn each motor with open leads and measure voltage over speed: this is the "
-                          "torque constant, and no mass, friction, saturation or load cell enters."}},
+                          "torque constant; mass, friction, saturation and load cell have no effect."}},
      .plants = {PlantKind::hopper},
      .parameters =
          [](const Context& c, const std::string&) {

@@ -27,7 +27,7 @@ const EffectRegistration kEffect(
     {.id = "actuator.voltage_limit",
      .port = Port::actuator,
      .statement =
-         "The bus voltage, less what the motors' speed takes of it, does not drive the commanded current.",
+         "The bus voltage, less the voltage that the motors induce, is too small for the commanded current.",
      .equation = "|i| <= (V - K_e w) / R",
      .bench_tests = {{.kind = "hop",
                       .sentence =

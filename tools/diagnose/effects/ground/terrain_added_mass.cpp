@@ -46,7 +46,7 @@ const EffectRegistration kEffect(
           {.kind = "hop",
            .sentence =
                "Record a hop with the stiffest leg and look just before the foot turns back in the bed: drag "
-               "is gone at that speed, added mass acts still, and a wrong foot mass shows in flight, too.",
+               "is gone at that speed, added mass still acts, and a wrong foot mass shows in flight, too.",
            .plants = {PlantKind::hopper}}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .parameters = parameters,

@@ -3,12 +3,13 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kUsualPushes = 2.0;  // after which most of the compaction is done
+constexpr double kUsualPushes = 2.0;  // n_0 if the recordings do not show it: guess
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.most_pushes <= 0.0) return {};
   const EffectParameter share{.name = "compaction_share", .typical = 0.2, .low = -0.8, .high = 10.0};
-  if (c.facts.range_of_pushes <= 0.0) return {share, part_of_unloading()};  // always as many: no shape shows
+  // With the same number of pushes before every trial the recordings do not show n_0.
+  if (c.facts.range_of_pushes <= 0.0) return {share, part_of_unloading()};
   return {share,
           {.name = "pushes", .typical = kUsualPushes, .low = 0.2, .high = 20.0, .shapes = {0.7, 6.0}},
           part_of_unloading()};
@@ -23,7 +24,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 const EffectRegistration kEffect(
     {.id = "terrain.compaction",
      .port = Port::ground,
-     .statement = "Each push since the bed was prepared leaves it stiffer.",
+     .statement = "Each push since the bed was prepared makes it stiffer.",
      .equation = "F_d -> F_d (1 + C (1 - exp(-n / n_0)))",
      .bench_tests =
          {{.kind = "intrusion",

@@ -6,9 +6,10 @@ namespace {
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.most_pushes <= 0.0) return {};
   const EffectParameter drop{.name = "drop_per_push_m", .typical = 3e-3, .low = -0.01, .high = 0.05};
-  if (c.facts.range_of_pushes <= 0.0) return {drop};  // always as many: no power shows
+  // With the same number of pushes before every trial the recordings do not show the power.
+  if (c.facts.range_of_pushes <= 0.0) return {drop};
   return {drop,
-          // Below 1 a later push lowers the surface less, as a bed does that grows firm.
+          // Below 1: a later push lowers the surface less than the first, because the bed becomes firmer.
           {.name = "pushes_power", .typical = 1.0, .low = 0.3, .high = 1.5, .shapes = {0.5}}};
 }
 

@@ -42,8 +42,8 @@ const EffectRegistration kEffect(
      .equation = "F_d -> F_d (z / z_r)^(n - n_0)",
      .bench_tests = {{.kind = "press",
                       .sentence = "Press the {foot} very slowly to its full depth and plot force over depth "
-                                  "on logarithmic scales: a power law is straight; a crust, a tilt, a false "
-                                  "zero or the floor bends it, and drag is silent."}},
+                                  "on logarithmic scales: a power law is a straight line; a crust, a tilt, a "
+                                  "false zero or the floor bends it; drag has no effect."}},
      .plants = {PlantKind::intruder, PlantKind::hopper, PlantKind::falling_body},
      .parameters = parameters,
      .apply = apply,

@@ -26,7 +26,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 const EffectRegistration kEffect(
     {.id = "terrain.foot_tilt",
      .port = Port::ground,
-     .statement = "The foot is tilted, so that it comes to bear only over some depth.",
+     .statement = "The foot is tilted, so its whole area carries only from some depth on.",
      .equation = "F_d -> F_d (1 - exp(-(z / z_t)^p))",
      .bench_tests =
          {{.kind = "press",

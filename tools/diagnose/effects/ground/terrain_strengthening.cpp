@@ -3,12 +3,13 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kUsual_s = 2.0;  // time constant
+constexpr double kUsual_s = 2.0;  // t_0 if the recordings do not show it: guess
 
 std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
   if (c.facts.longest_wait_s <= 0.0) return {};
   const EffectParameter share{.name = "share_per_e_fold", .typical = 0.03, .low = 0.0, .high = 1.0};
-  if (c.facts.range_of_wait_s <= 0.0) return {share, part_of_unloading()};  // always as long: no shape shows
+  // With the same wait before every trial the recordings do not show t_0.
+  if (c.facts.range_of_wait_s <= 0.0) return {share, part_of_unloading()};
   return {share,
           {.name = "time_constant_s", .typical = kUsual_s, .low = 0.05, .high = 100.0, .shapes = {0.5, 10.0}},
           part_of_unloading()};

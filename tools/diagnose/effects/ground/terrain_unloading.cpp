@@ -22,7 +22,7 @@ void apply(const Context& c, const std::string&, std::span<const double> v, Edit
 const EffectRegistration kEffect(
     {.id = "terrain.unloading",
      .port = Port::ground,
-     .statement = "The bed gives back along another line than believed when the foot moves up.",
+     .statement = "When the foot moves up, the force of the bed falls along another line than believed.",
      .equation = "F = F_max - r k (z_max - z)",
      .bench_tests = {{.kind = "press",
                       .sentence = "Press slowly and draw back by a fraction of a millimetre at several "

@@ -16,11 +16,11 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 const EffectRegistration kEffect(
     {.id = "foot.mass",
      .port = Port::inertia,
-     .statement = "The foot's mass is not what is believed.",
+     .statement = "The foot's mass is not the believed one.",
      .equation = "m_f -> m_f + dm",
-     .bench_tests = {{.sentence =
-                          "Weigh the foot on a balance, apart from the links: a wrong mass shows there, and "
-                          "nothing of rotor inertia, added mass of the bed or a load cell does."}},
+     .bench_tests =
+         {{.sentence = "Weigh the foot on a balance, apart from the links: a wrong mass shows there; rotor "
+                       "inertia, added mass of the bed and the load cell have no effect."}},
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v,

@@ -16,7 +16,8 @@ const EffectRegistration kEffect(adds_to(
     {kPlay, kGive},
     {.id = "joint.backlash",
      .port = Port::joint,
-     .statement = "There is play between motors and links: each reversal of the torque costs it.",
+     .statement =
+         "There is play between motors and links: at each reversal of the torque the links follow later.",
      .equation = "tau_t = K (|p| - play/2) sign(p) + D dp/dt where teeth touch, 0 between; p = rotor - link",
      .bench_tests =
          {{.kind = "hold",

@@ -16,12 +16,12 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string&) {
 const EffectRegistration kEffect(
     {.id = "joint.rotor_inertia",
      .port = Port::inertia,
-     .statement = "The rotors' inertia is not what is believed.",
+     .statement = "The rotors' inertia is not the believed one.",
      .equation = "J -> J + dJ",
      .bench_tests =
          {{.sentence =
                "Take the links off and turn the bare rotors, without and with a disk of known inertia: the "
-               "two accelerations give the rotor inertia, and no foot, link, gravity or bed enters."}},
+               "two accelerations give the rotor inertia; foot, links, gravity and bed have no effect."}},
      .plants = {PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context&, const std::string&, std::span<const double> v,

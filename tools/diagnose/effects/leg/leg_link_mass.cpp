@@ -26,8 +26,8 @@ const EffectRegistration kEffect(adds_to(
      .port = Port::inertia,
      .statement = "The leg's links are heavier or lighter than believed.",
      .equation = "m_2 -> m_2 + dm_2, m_1 -> m_1 + dm_1 (lower, upper link)",
-     .bench_tests = {{.sentence = "Weigh the links on a balance, each by itself: a wrong mass shows there, "
-                                  "and nothing of foot, rotors, joints or accelerometers does."}},
+     .bench_tests = {{.sentence = "Weigh the links on a balance, each by itself: a wrong mass shows there; "
+                                  "foot, rotors, joints and accelerometers have no effect."}},
      .plants = {PlantKind::hopper},
      .parameters = parameters}));
 

@@ -27,8 +27,8 @@ const EffectRegistration kEffect(adds_to(
      .equation = "x = x_encoder - s,  F = k_s s + 2 zeta sqrt(k_s m_f) ds/dt",
      .bench_tests = {{.kind = "clamped",
                       .sentence = "Clamp the body with the foot on a rigid block and raise the torque in "
-                                  "steps: the encoders go on in proportion to the force only if the leg "
-                                  "yields; play moves them once, and a bed is not there."}},
+                                  "steps: the encoders move in proportion to the force only if the leg "
+                                  "yields; play moves them once, and there is no bed."}},
      .plants = {PlantKind::hopper},
      .parameters = parameters}));
 

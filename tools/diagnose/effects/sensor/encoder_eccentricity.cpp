@@ -34,7 +34,7 @@ const EffectRegistration kEffect(
          {{.kind = "hold",
            .sentence =
                "Set the shaft to known angles all round a turn, at rest, and read the encoder: an error that "
-               "repeats once a turn is eccentricity, a constant one an offset, and torques do not enter."}},
+               "repeats once a turn is eccentricity, a constant one an offset; torques have no effect."}},
      .plants = {PlantKind::rotary_axis, PlantKind::hopper},
      .parameters = parameters,
      .apply = [](const Context& c, const std::string&, std::span<const double> v, Edits& edits) {

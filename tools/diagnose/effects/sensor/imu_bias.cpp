@@ -21,7 +21,7 @@ std::vector<EffectParameter> parameters_in_fall(const Context& c, const std::str
 const EffectRegistration kEffect(
     {.id = "imu.bias",
      .port = Port::sensor,
-     .statement = "{channel} reads a constant amount off.",
+     .statement = "{channel} reads too much or too little by a constant.",
      .equation = "y = x + o",
      .bench_tests = {kUpsideDown},
      .plants = {PlantKind::hopper},
@@ -35,7 +35,7 @@ const EffectRegistration kEffect(
 
 const EffectRegistration kInFall({.id = "imu.bias",
                                   .port = Port::sensor,
-                                  .statement = "{channel} reads a constant amount off.",
+                                  .statement = "{channel} reads too much or too little by a constant.",
                                   .equation = "y = x + o",
                                   .bench_tests = {kUpsideDown},
                                   .same_as = {"sensor.bias"},

@@ -6,7 +6,7 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "imu.tilt",
      .port = Port::sensor,
-     .statement = "The sensor of {channel} is tilted: it sees the cosine of what it should.",
+     .statement = "The sensor of {channel} is tilted: it reads the true value times the cosine of the tilt.",
      .equation = "y = x cos(alpha)",
      .bench_tests = {{.kind = "hold",
                       .sentence = "Hold the robot still, lying on each of its sides: if {channel} is tilted "

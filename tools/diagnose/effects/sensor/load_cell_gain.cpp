@@ -12,7 +12,7 @@ const EffectRegistration kEffect(
          {{.kind = "hold",
            .sentence =
                "Put two known weights on the load cell, one after the other: a wrong gain errs in proportion "
-               "to the weight, an offset by the same force, and neither the {robot} nor a bed enters."}},
+               "to the weight, an offset by the same force; {robot} and bed have no effect."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters =

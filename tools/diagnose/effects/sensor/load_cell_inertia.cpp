@@ -6,8 +6,8 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "load_cell.inertia",
      .port = Port::sensor,
-     .statement =
-         "A mass between load cell and contact: what accelerates it upwards does not reach the load cell.",
+     .statement = "A mass lies between load cell and contact: the force that accelerates it does not reach "
+                  "the load cell.",
      .equation = "y = F - m a",
      .bench_tests =
          {{.kind = "air_sweep",

@@ -11,7 +11,7 @@ const EffectRegistration kEffect(
      .bench_tests = {{.kind = "tap",
                       .sentence =
                           "Tap the unloaded load cell with a hammer: a lag smears the peak, late time stamps "
-                          "shift it whole, and no bed, friction or mass of the {foot} enters."}},
+                          "shift it whole; bed, friction and mass of the {foot} have no effect."}},
      .plants = {PlantKind::intruder, PlantKind::hopper},
      .channels = load_cells,
      .parameters = [](const Context&, const std::string&) { return lag_parameters(); },

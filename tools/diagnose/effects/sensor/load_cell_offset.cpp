@@ -6,7 +6,7 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "load_cell.offset",
      .port = Port::sensor,
-     .statement = "The load cell reads a constant amount off.",
+     .statement = "The load cell reads too much or too little by a constant.",
      .equation = "y = F + o",
      .bench_tests = {{.kind = "hold",
                       .sentence = "Read the load cell with nothing on it before and after a trial: what it "

@@ -25,7 +25,7 @@ std::vector<EffectParameter> parameters(const Context& c, const std::string& cha
 const EffectRegistration kEffect(
     {.id = "sensor.bias",
      .port = Port::sensor,
-     .statement = "{channel} reads a constant amount off.",
+     .statement = "{channel} reads too much or too little by a constant.",
      .equation = "y = x + o",
      .bench_tests =
          {{.kind = "hold",

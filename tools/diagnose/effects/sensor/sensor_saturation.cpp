@@ -3,7 +3,8 @@
 namespace sandhopper::diagnose {
 namespace {
 
-constexpr double kPileUp = 0.02;  // Fraction of all samples at the end value, exactly or within the noise.
+// Least fraction of all samples at the end value, exactly or within the noise. Set by hand.
+constexpr double kPileUp = 0.02;
 
 // A range ends at a value at which samples accumulate. The fitted parameter is the degree of clamping: 1
 // means a hard limit.
@@ -29,14 +30,15 @@ SensorRange sensor_range(const Context& c, const std::string& channel) {
   return range;
 }
 
-// A limit before the noise is added: samples scatter around it, so it is fitted, as 1 / limit.
+// The range ends before the sensor's noise is added: samples scatter around the limit, so the limit is
+// fitted, as 1 / limit.
 std::vector<EffectParameter> limit_under_noise(const Context& c, const std::string& channel) {
   const auto it = c.channels.find(channel);
   // A hopper's drives and accelerometers have limits of their own: actuator.saturation, imu.clipping.
   if (it == c.channels.end() || c.plant == PlantKind::hopper) return {};
   const auto& s = it->second;
   const double end = std::max(std::abs(s.low), std::abs(s.high));
-  // Twice of what samples spread evenly over the range would give.
+  // Twice the share that samples spread evenly over the range would have there.
   const double by_chance = 2.0 * kNoiseBand * s.noise_rms / std::max(s.high - s.low, 1e-12);
   if (end == 0.0 || s.share_near_end < std::max(kPileUp, by_chance)) return {};
   return {{.name = "limit_" + unit_of(channel),
@@ -84,7 +86,7 @@ std::vector<std::string> channels(const Context& c) {
 const EffectRegistration kEffect(
     {.id = "sensor.saturation",
      .port = Port::sensor,
-     .statement = "{channel} stops at the end of its range while the quantity goes on.",
+     .statement = "{channel} stays at the end of its range while the quantity continues to change.",
      .equation = "y = min(x, limit), |y| <= limit under noise",
      .bench_tests = {{.sentence = "Move what {channel} measures slowly past its highest recorded value "
                                   "beside a second gauge: the reading stops there, although nothing moves "

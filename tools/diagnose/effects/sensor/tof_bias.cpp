@@ -6,7 +6,7 @@ namespace {
 const EffectRegistration kEffect(
     {.id = "tof.bias",
      .port = Port::sensor,
-     .statement = "The height's zero is not the surface.",
+     .statement = "The zero of tof_height_m is not the surface of the bed.",
      .equation = "z_recorded = z + o",
      .bench_tests = {{.kind = "hold",
                       .sentence = "Hold the robot still on two gauge blocks: a bias of tof_height_m is the "

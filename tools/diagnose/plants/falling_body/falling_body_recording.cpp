@@ -26,6 +26,7 @@ double misfit_of_line(const Samples& s) {
 }  // namespace
 
 std::optional<double> release_before_shock_s(const Samples& accels, double g) {
+  // Longest duration of a soft release, and the windows before and after it whose mean readings are compared.
   constexpr double kSoft_s = 0.25, kWindow_s = 0.1;
   const auto& a = accels.value;
   const auto& t = accels.time_s;
@@ -59,6 +60,7 @@ std::optional<double> end_of_rest_s(const Samples& heights, double believed_nois
     sum += heights.value[still++];
   }
   if (still < 5 || still >= heights.value.size()) return std::nullopt;
+  // A body that falls from rest is seen to move after this time, when it has fallen by 5 standard deviations.
   const double fall_s = std::sqrt(2.0 * 5.0 * noise / fall_mps2);
   const double still_s = heights.time_s[still] - heights.time_s[0];
   if (still_s <= 2.0 * fall_s + 0.02) return std::nullopt;
@@ -97,6 +99,7 @@ std::optional<double> loss_of_weight_s(const Samples& accels, double gravity_mps
 }
 
 std::optional<double> gap_around_s(const Samples& accels, double about_s) {
+  // Distance of the gap from `about_s`; shortest duration of a gap.
   constexpr double kNear_s = 0.03, kLeast_s = 0.01;
   for (std::size_t i = 1; i < accels.time_s.size(); ++i) {
     const double from_s = accels.time_s[i - 1], to_s = accels.time_s[i];
@@ -106,6 +109,7 @@ std::optional<double> gap_around_s(const Samples& accels, double about_s) {
 }
 
 std::optional<double> release_by_hand_s(const Samples& heights) {
+  // Part of the recording that is fitted; step of the tried releases; samples for a fit.
   constexpr double kLook_s = 1.0, kStep_s = 0.01;
   constexpr std::size_t kFewest = 8;
   double best = 1e300, best_s = 0.0;
@@ -127,7 +131,7 @@ std::optional<double> release_by_hand_s(const Samples& heights) {
 }
 
 double jitter_s(const std::vector<double>& sampled_s, double row_s) {
-  constexpr double kOften = 0.02;
+  constexpr double kOften = 0.02;  // share of other intervals above which the sensor has a clock of its own
   if (sampled_s.size() < 10) return 0.0;
   const double usual_s = median_step_s(sampled_s);
   double other = 0.0;  // intervals that are a row longer or shorter; larger differences are gaps
@@ -167,7 +171,7 @@ std::optional<double> hardest_deceleration_s(const Samples& accels, double g) {
 }
 
 std::optional<double> liquid_entry_s(const Samples& accels, double g) {
-  constexpr std::size_t kBefore = 20, kAfter = 5;  // samples
+  constexpr std::size_t kBefore = 20, kAfter = 5;  // samples of the free fall, and above the blow's threshold
   constexpr double kFree = 0.25, kBlow = 0.1;      // in g
   const auto& a = accels.value;
   const double blow = std::max(8.0 * fluctuation_rms(accels), kBlow * g);
@@ -188,6 +192,8 @@ std::optional<double> liquid_entry_s(const Samples& accels, double g) {
 }
 
 std::optional<Impact> find_impact(const Samples& accels, double peak_s, double release_s, double g) {
+  // Duration of the steady reading before the impact; share of the peak above it at which the impact begins;
+  // time after a soft release from which the body falls freely.
   constexpr double kPlateau_s = 0.4, kBegins = 0.03, kSoftRelease_s = 0.15;
   std::size_t at = 0;
   while (at < accels.value.size() && accels.time_s[at] < peak_s) ++at;

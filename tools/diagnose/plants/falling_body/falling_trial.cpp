@@ -20,8 +20,7 @@ constexpr double kKnownSpeed_mps = 0.02;  // standard deviation of the release s
 constexpr double kToldSpeed = 0.01;       // relative standard deviation of an impact speed in the set-up
 constexpr double kReleaseTime_s = 0.03;   // standard deviation of a release that the recording shows
 constexpr double kTouchdownTime_s = 0.1;  // standard deviation of a touchdown that the recording shows
-// Nearer to the touchdown, accelerations are left out: no sampled signal follows the kink.
-constexpr double kKink_s = 4e-3;
+constexpr double kKink_s = 4e-3;  // nearer to the touchdown, accelerations are left out: they have a kink
 // Relative standard deviation, in each trial, of the scale of an undescribed height sensor.
 constexpr double kUnknownScale = 0.04;
 // Standard deviations of a stop that is simulated separately from its fall.
@@ -164,6 +163,7 @@ class FallingTrial final : public TrialModel {
   // Finds the touchdown: the first steep rise of the acceleration, else the first height below the surface.
   // On the bed the body stops with a jump that a fit cannot follow, so rows end shortly before.
   void find_touchdown(const Samples& heights, const Samples& accels) {
+    // Least share of the believed bed's rise within the window; phase on the bed (it stops at pi / 2).
     constexpr double kShareOfRise = 0.3, kWindow_s = 2e-3, kLastPhase_rad = 1.15;
     const FallingFigures f(fall_.belief, {});
     const FallingMotion fall = fall_.simulate({}, std::vector<double>(nuisance_count(), 0.0));

@@ -31,7 +31,7 @@ double largest_of(const Trial& trial, const std::string& channel) {
 // Orders of the torque ripple over the angle in the joint's balance, after a regression on friction and
 // drive.
 std::vector<double> ripple_orders(const std::vector<Trial>& trials, const Belief& belief) {
-  constexpr int kFirst = 12, kLast = 300;
+  constexpr int kFirst = 12, kLast = 300;  // periods per revolution that are searched
   std::vector<double> angles, torques;
   for (const auto& trial : trials)
     for (const auto& balance : balances_of(trial, with_payload(belief, trial)))

@@ -120,7 +120,7 @@ Samples mean_of_motors(const Trial& trial, const std::string& quantity) {
 }
 
 bool currents_follow_own_row(const Trial& trial) {
-  constexpr double kNearer = 0.5;
+  constexpr double kNearer = 0.5;  // largest ratio of the variances that the two commands leave
   const auto* current = trial.find("motor_left_current_A");
   const auto* command = trial.find("command_left_torque_Nm");
   if (current == nullptr || command == nullptr) return false;

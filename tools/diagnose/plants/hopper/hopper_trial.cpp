@@ -17,11 +17,11 @@ constexpr double kSurfaceUnknown_m = 3e-4;
 constexpr double kReleaseUnknown_m = 2e-4;
 constexpr double kReleaseSpeedUnknown_mps = 1e-3;
 constexpr double kReleaseAngleUnknown_rad = 2e-4;
-constexpr double kNearEndStop_rad = 0.04;
-constexpr double kAtLimit = 0.999;  // of the torque limit: a command from here on is clamped
-constexpr double kAloft_s = 0.02;   // a contact later than this after liftoff is the next landing
-// Factor on the steps of derivatives. The jumps at events are small against the change over such a step;
-// against a quarter of it they are not.
+constexpr double kNearEndStop_rad = 0.04;  // rows end when the leg is nearer to its end stop
+constexpr double kAtLimit = 0.999;         // of the torque limit: a command from here on is clamped
+constexpr double kAloft_s = 0.02;          // a contact later than this after liftoff is the next landing
+// Factor on the steps of derivatives. A jump at an event is small compared with the change over such a wide
+// step, but not compared with the change over the original step.
 constexpr double kWideStep = 4.0;
 
 // Standard deviation of each sample relative to one whose time is known. `age_sd_s`: standard deviation of

@@ -67,8 +67,8 @@ void RecordedController::take_smoothed(const Signal* angle_rad, const Signal* ra
 
 void RecordedController::find_age(const WorldConfig& world, double compression_stiffness_N_per_m,
                                   const std::vector<PhaseChange>& phases) {
-  constexpr int kOldest = 2;  // rows
-  constexpr double kNearer = 0.5;
+  constexpr int kOldest = 2;       // rows
+  constexpr double kNearer = 0.5;  // largest ratio of the differences for a larger age
   if (!measured() || commands_.empty()) return;
   const double row_s = median_step_s(measured_.time_s);
   const auto as_read = measured_.time_s;

@@ -16,7 +16,7 @@ constexpr double kSettling_s = 0.015;     // after a landing, unless the set-up 
 constexpr double kOffset_N = 0.5;         // least standard deviation of the force's zero
 constexpr double kInTheAir_N = 5.0;       // below this force the foot is in the air
 constexpr double kFlightBegins_s = 0.03;  // the foot is in the air this long after the controller's liftoff
-constexpr double kFrictionSwitch_radps = 0.2;
+constexpr double kFrictionSwitch_radps = 0.2;  // dry friction changes its sign within this speed
 constexpr const char* kForce = "load_cell_force_N";
 enum Phase : std::uint32_t { kCompression = 2, kExtension = 4 };
 

@@ -174,8 +174,8 @@ class JointSmoother {
 
 // Refines the grid for a fast foot, which meets the bed between two rows. Interpolation by cubics (Hermite).
 void refine(IntruderMotion& m) {
-  constexpr double kFarthest_m = 1.5e-4;
-  constexpr std::size_t kMostParts = 8;
+  constexpr double kFarthest_m = 1.5e-4;  // largest motion within one step of the finer grid
+  constexpr std::size_t kMostParts = 8;   // of one step
   const auto parts = std::clamp<std::size_t>(
       static_cast<std::size_t>(m.step_s * largest(m.speed_mps) / kFarthest_m + 1.0), 1, kMostParts);
   const std::size_t n = m.depth_m.size();
@@ -221,8 +221,8 @@ struct OutOfTime {
   double late_s, drift, late_se_s, drift_se;
 };
 std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const Samples& a) {
-  constexpr std::size_t kOfRate = 5, kOfCurvature = 15;  // samples of `other` to each side
-  constexpr std::size_t kLeastRows = 50, kLeastHalf = 3;
+  constexpr std::size_t kOfRate = 5, kOfCurvature = 15;   // samples of `other` to each side
+  constexpr std::size_t kLeastRows = 50, kLeastHalf = 3;  // samples of a channel; samples to each side
   const bool by_speed = z.time_s == v.time_s;
   const Samples& recorded = by_speed ? v : a;
   if (z.time_s.size() < kLeastRows || recorded.time_s.size() < kLeastRows) return std::nullopt;
@@ -263,6 +263,7 @@ std::optional<OutOfTime> out_of_time(const Samples& z, const Samples& v, const S
 }  // namespace
 
 IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples& a) {
+  // Time to each side over which a motion is smoothed; noise below which a depth is used as it is.
   constexpr double kSmoothing_s = 0.004, kQuantum_m = 2e-6;
   IntruderMotion m;
   m.start_s = z.time_s.front();
@@ -315,7 +316,7 @@ IntruderMotion intruder_motion(const Samples& z, const Samples& v, const Samples
 }
 
 bool position_is_out_of_time(const std::vector<Trial>& trials) {
-  constexpr std::size_t kLeastTrials = 3;
+  constexpr std::size_t kLeastTrials = 3;  // for a scatter between trials
   std::vector<double> late_s, drift;
   for (const auto& trial : trials)
     if (const auto apart = out_of_time(samples_of(trial, "foot_z_m"), samples_of(trial, "foot_velocity_mps"),

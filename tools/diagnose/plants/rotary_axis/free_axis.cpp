@@ -16,6 +16,8 @@ bool is_silent(const std::vector<double>& torque) {
 }  // namespace
 
 std::optional<double> let_go_s(const Trial& trial) {
+  // d_1 and d_2 as shares of the whole range; d_1 is at least kNoise standard deviations, d_2 kApart times
+  // d_1.
   constexpr double kFirst = 0.01, kSecond = 0.1, kNoise = 6.0, kApart = 2.0;
   const auto angle = samples_of(trial, "position_rad");
   if (angle.value.size() < 20) return std::nullopt;

@@ -98,6 +98,7 @@ class DrivenSteps {
     }
   }
 
+  // Most parts of a step. A speed that exceeds the limit belongs to a diverging simulation.
   static constexpr double kMostParts = 40.0, kFastest_radps = 1e4;
 
  private:
