@@ -13,8 +13,8 @@ namespace sandhopper::diagnose {
 namespace {
 
 bool used_shorter_stretches(const Diagnosis& d) {
-  return std::ranges::any_of(d.log,
-                             [](const auto& line) { return line.starts_with("again in shorter stretches"); });
+  return std::ranges::any_of(
+      d.log, [](const auto& line) { return line.starts_with("searched again in shorter stretches"); });
 }
 
 TEST(DiagnoseStretches, OnlyAnAxisThatRunsFreeHasLongOnes) {
