@@ -166,6 +166,8 @@ TEST(DiagnoseHopper, ASwitchAgainstItsRuleIsSeenWithoutASimulation) {
   };
   EXPECT_TRUE(broken(0.0).empty());
   EXPECT_TRUE(broken(0.001).empty());
+  EXPECT_TRUE(broken(0.003).empty()) << "a rule that must hold in three cycles in a row";
+  EXPECT_EQ(broken(0.006).size(), 1u);
   ASSERT_EQ(broken(0.008).size(), 1u);
   EXPECT_EQ(broken(0.008).front().id, "controller.not_as_configured");
   EXPECT_NEAR(broken(0.008).front().value, 0.008, 0.001);

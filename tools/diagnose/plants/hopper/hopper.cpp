@@ -18,9 +18,11 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Tolerated delay of the change from compression to extension against its rule: for one change, and for the
-// median of all.
-constexpr double kSwitchFar_s = 6e-3, kSwitchOff_s = 2.5e-3;
+// Tolerated delay of the change from compression to extension against its rule. For one change: set by hand.
+constexpr double kSwitchFar_s = 6e-3;
+// For the median of all: a controller may ask for its rule in three cycles in a row, read its sensors half a
+// cycle before it acts, and act up to half a cycle before the row that shows it. No belief states these.
+constexpr double kSwitchOff_cycles = 4.0;
 
 double largest_of(const Trial& trial, const std::string& channel) {
   double largest = 0.0;
@@ -130,15 +132,19 @@ class Hopper final : public PlantModel {
   std::vector<BrokenRule> broken_rules(const std::vector<Trial>& trials,
                                        const std::vector<Belief>& beliefs) const override {
     std::vector<double> late_s;
-    for (std::size_t i = 0; i < trials.size(); ++i)
-      if (trials[i].kind.empty() || trials[i].kind == "hop")
-        for (const double late : late_switches_s(trials[i], world_of(beliefs[i], {}))) late_s.push_back(late);
+    double off_s = 0.0;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (!trials[i].kind.empty() && trials[i].kind != "hop") continue;
+      const WorldConfig world = world_of(beliefs[i], {});
+      off_s = std::max(off_s, kSwitchOff_cycles / world.controller.rate_Hz);
+      for (const double late : late_switches_s(trials[i], world)) late_s.push_back(late);
+    }
     if (late_s.empty()) return {};
     std::vector<double> far_s;
     for (const double late : late_s)
       if (std::abs(late) > kSwitchFar_s) far_s.push_back(late);
     const bool some = far_s.size() >= 2 && 10 * far_s.size() >= late_s.size();
-    const bool all = late_s.size() >= kTooFewTrials && std::abs(median(late_s)) > kSwitchOff_s;
+    const bool all = late_s.size() >= kTooFewTrials && std::abs(median(late_s)) > off_s;
     if (!some && !all) return {};
     const auto& shown = all ? late_s : far_s;
     const auto [low, high] = std::ranges::minmax(shown);
