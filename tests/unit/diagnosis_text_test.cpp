@@ -98,7 +98,7 @@ TEST(DiagnosisText, ARaisedNoiseStandsWithItsSizesAndWhatItMeans) {
   EXPECT_THAT(
       remainder,
       HasSubstr("noise  position_rad: 0.21 rad, 2.1 times the 0.1 rad stated (nominal.toml, line 5)"));
-  EXPECT_THAT(remainder, HasSubstr("the model leaves a remainder"));
+  EXPECT_THAT(remainder, HasSubstr("an error of the model"));
   const auto worse = to_text(with_noise(0.1, 0.2, 0.21));
   EXPECT_THAT(worse, HasSubstr("the sensor is worse than stated"));
   EXPECT_THAT(to_text(with_noise(0.0, 0.1, 0.21)), HasSubstr("2.1 times the 0.1 rad by which it scatters"));
@@ -138,7 +138,7 @@ TEST(DiagnosisText, WhatRemainsStandsInTheChannelsUnitAndAgainstTheFirstModel) {
               HasSubstr("left   position_rad: what remains is 0.75 rad rms beyond the noise floor, 1.0 % "
                         "of the range of 75 rad.\n"));
   d.first = FirstAnswer{"answer/diagnosis.json", {{"position_rad", 25.0}}};
-  EXPECT_THAT(headline(d), HasSubstr("beside what the corrected model holds"));
+  EXPECT_THAT(headline(d), HasSubstr("beside what the corrected model contains"));
   EXPECT_THAT(headline(d),
               HasSubstr("and 3.0 % of the 25 rad that the first model left (answer/diagnosis.json)"));
   EXPECT_THAT(headline(d), Not(HasSubstr("units")));
