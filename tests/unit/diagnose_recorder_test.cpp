@@ -7,7 +7,10 @@
 #include "tests/unit/diagnose_hops.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
 #include "tools/diagnose/fit/prepare.hpp"
+#include "tools/diagnose/plants/hopper/hopper_belief.hpp"
 #include "tools/diagnose/plants/hopper/hopper_recording.hpp"
+#include "tools/diagnose/plants/hopper/hopper_trial.hpp"
+#include "tools/diagnose/plants/hopper/recorded_controller.hpp"
 
 // Recorders differ in what a belief does not state: when within a row a sample is taken, how exact its time
 // stamp is, what the first row of a hop holds. None of it is missing physics.
@@ -87,6 +90,45 @@ TEST(DiagnoseRecorder, APhaseChangeBelongsToTheNearestCycle) {
   EXPECT_NEAR(at[2].time_s, 0.3, 1e-9);
   EXPECT_NEAR(at[3].time_s, 0.6004, 1e-9);
   EXPECT_EQ(at[3].phase, HopperPhase::flight);
+}
+
+// Without the rows of `from_s` to `to_s`.
+Trial without_rows(Trial trial, double from_s, double to_s) {
+  const auto first = std::ranges::lower_bound(trial.time_s, from_s) - trial.time_s.begin();
+  const auto last = std::ranges::lower_bound(trial.time_s, to_s) - trial.time_s.begin();
+  for (auto& [name, values] : trial.channels)
+    if (values.size() == trial.time_s.size()) values.erase(values.begin() + first, values.begin() + last);
+  trial.time_s.erase(trial.time_s.begin() + first, trial.time_s.begin() + last);
+  return trial;
+}
+
+// A gap of 30 ms over a touchdown: taken at the first row after it, the leg was 20 ms too long in flight, and
+// the trial moved seven nuisances of a campaign in which nothing was missing.
+TEST(DiagnoseRecorder, APhaseChangeAmongMissingRowsMayBeAnyOfThem) {
+  const Trial whole = hop(), gap = without_rows(whole, 0.0805, 0.1105),
+              one = without_rows(whole, 0.0895, 0.0905);
+  EXPECT_EQ(phase_changes(whole)[1].unsure_s, 0.0);
+  ASSERT_EQ(phase_changes(gap).size(), 4u);
+  EXPECT_NEAR(phase_changes(gap)[1].time_s, 0.096, 1e-6);
+  EXPECT_NEAR(phase_changes(gap)[1].unsure_s, 0.015, 1e-6);
+  EXPECT_NEAR(phase_changes(one)[1].unsure_s, 5e-4, 1e-6);
+  EXPECT_EQ(phase_changes(gap)[2].unsure_s, 0.0);
+  const auto unsure_rows = [](const Trial& trial) {
+    std::vector<double> rows;
+    for (const auto& [sooner, later] : hopper_trial(trial, Belief{})->variants())
+      if (later.kind == Variant::Kind::event) rows.push_back(later.amount);
+    return rows;
+  };
+  EXPECT_NEAR(unsure_rows(whole).at(0), 0.5, 1e-9);
+  EXPECT_NEAR(unsure_rows(gap).at(0), 15.5, 1e-3);
+  EXPECT_NEAR(unsure_rows(gap).at(1), 0.5, 1e-9);
+}
+
+TEST(DiagnoseRecorder, ASwitchAmongMissingRowsIsNoLateOne) {
+  const auto world = world_of(Belief{}, {});
+  EXPECT_EQ(late_switches_s(hop(), world).size(), 1u);
+  EXPECT_TRUE(late_switches_s(without_rows(hop(), 0.2405, 0.2605), world).empty());
+  EXPECT_EQ(late_switches_s(without_rows(hop(), 0.0805, 0.1105), world).size(), 1u);
 }
 
 // Only a stated rate makes a sample older than its row: half a period in the mean.

@@ -49,8 +49,10 @@ std::vector<VariantPair> HopperTrial::variants() const {
   constexpr double kFiner = 0.5, kHalfARow = 0.5, kSharper = 0.1;
   std::vector<VariantPair> pairs{{{}, {Variant::Kind::step, 0, kFiner}}};
   for (std::size_t i = 1; i < course_.phases.size(); ++i)
-    if (course_.phases[i].time_s < course_.end_s)
-      pairs.push_back({{Variant::Kind::event, i, -kHalfARow}, {Variant::Kind::event, i, kHalfARow}});
+    if (course_.phases[i].time_s < course_.end_s) {
+      const double unsure = kHalfARow + course_.phases[i].unsure_s / kTick_s;
+      pairs.push_back({{Variant::Kind::event, i, -unsure}, {Variant::Kind::event, i, unsure}});
+    }
   pairs.push_back({{}, {Variant::Kind::friction, 0, kSharper}});
   return pairs;
 }

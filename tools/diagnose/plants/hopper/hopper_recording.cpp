@@ -100,11 +100,19 @@ void let_go_where_it_begins(const Trial& trial, HopStart& start) {
 }  // namespace
 
 std::vector<PhaseChange> phase_changes(const Trial& trial) {
+  constexpr double kHalfARow = 0.5;
   std::vector<PhaseChange> phases;
   const auto recorded = samples_of(trial, "phase");
+  const double row_s = median_step_s(recorded.time_s);
   for (std::size_t i = 0; i < recorded.value.size(); ++i) {
     const auto phase = static_cast<HopperPhase>(std::clamp(std::lround(recorded.value[i]), 0L, 2L));
-    if (phases.empty() || phases.back().phase != phase) phases.push_back({recorded.time_s[i], phase});
+    if (!phases.empty() && phases.back().phase == phase) continue;
+    phases.push_back({recorded.time_s[i], phase});
+    // With rows missing before it, the change may belong to any of them: take their middle.
+    const double missing_s = i == 0 ? 0.0 : recorded.time_s[i] - recorded.time_s[i - 1] - row_s;
+    if (missing_s < kHalfARow * row_s) continue;
+    phases.back().unsure_s = 0.5 * missing_s;
+    phases.back().time_s -= phases.back().unsure_s;
   }
   return phases;
 }

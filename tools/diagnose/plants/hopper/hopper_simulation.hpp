@@ -19,6 +19,7 @@ enum class HopperPhase : std::uint8_t { flight, compression, extension };
 struct PhaseChange {
   double time_s;
   HopperPhase phase;
+  double unsure_s = 0.0;  // It may have come so much earlier or later, because rows are missing there.
 };
 // Phase at a time; before the first change it is the first phase.
 HopperPhase phase_at(const std::vector<PhaseChange>& phases, double time_s);

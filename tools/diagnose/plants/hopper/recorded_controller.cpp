@@ -143,6 +143,8 @@ std::vector<double> RecordedController::late_switches_s(const WorldConfig& world
   const double step_s = median_step_s(measured_.time_s);
   for (std::size_t i = 1; i < phases.size(); ++i) {
     if (phases[i].phase != HopperPhase::compression) continue;
+    // Rows are missing where the switch was made.
+    if (i + 1 < phases.size() && phases[i + 1].unsure_s > 0.0) continue;
     const bool last = i + 1 == phases.size();
     const double to_s = last ? end_s_ : phases[i + 1].time_s;
     // If the change came early, its due time is after it.
