@@ -18,11 +18,9 @@
 namespace sandhopper::diagnose {
 namespace {
 
-// Tolerated delay of the change from compression to extension against its rule. For one change: set by hand.
+// Tolerated delay of one change from compression to extension against its rule (of the median of all:
+// kCyclesToSwitch): set by hand.
 constexpr double kSwitchFar_s = 6e-3;
-// For the median of all: a controller may ask for its rule in three cycles in a row, read its sensors half a
-// cycle before it acts, and act up to half a cycle before the row that shows it. No belief states these.
-constexpr double kSwitchOff_cycles = 4.0;
 
 double largest_of(const Trial& trial, const std::string& channel) {
   double largest = 0.0;
@@ -136,7 +134,7 @@ class Hopper final : public PlantModel {
     for (std::size_t i = 0; i < trials.size(); ++i) {
       if (!trials[i].kind.empty() && trials[i].kind != "hop") continue;
       const WorldConfig world = world_of(beliefs[i], {});
-      off_s = std::max(off_s, kSwitchOff_cycles / world.controller.rate_Hz);
+      off_s = std::max(off_s, kCyclesToSwitch / world.controller.rate_Hz);
       for (const double late : late_switches_s(trials[i], world)) late_s.push_back(late);
     }
     if (late_s.empty()) return {};

@@ -113,27 +113,32 @@ void RecordedController::commands_Nm(const WorldConfig& world, double compressio
   }
 }
 
-std::optional<double> RecordedController::due_s(const WorldConfig& world, double from_s, double to_s,
+std::optional<double> RecordedController::due_s(const WorldConfig& world, const Between& times,
                                                 double shorter_m) const {
   const auto& c = world.controller;
   double time_before_s = 0.0, rate_before = 0.0, beyond_before_m = 0.0;
+  std::optional<double> due;
   for (std::size_t i = 0; i < measured_.time_s.size(); ++i) {
     const double t = measured_.time_s[i];
-    if (t < from_s) continue;
-    if (t > to_s) break;
+    if (t < times.from_s) continue;
+    if (t > times.to_s || (t >= times.switch_s && due)) break;
     const auto kinematics = leg_.kinematics(measured_.angle_rad[i]);
     const double rate = kinematics.dlength_m_per_rad * measured_.rate_radps[i];
     const double beyond_m = c.compression_length_m - kinematics.length_m - shorter_m;
-    if (rate >= 0.0 && beyond_m > 0.0) {
-      if (time_before_s == 0.0) return t;
-      const double part = std::max(crossing(rate_before, rate), crossing(beyond_before_m, beyond_m));
-      return time_before_s + part * (t - time_before_s);
-    }
+    const bool holds = rate >= 0.0 && beyond_m > 0.0;
+    if (!holds && due && t - *due > kCyclesToSwitch / c.rate_Hz) break;
+    if (!holds)
+      due.reset();
+    else if (!due)
+      due = time_before_s == 0.0
+                ? t
+                : time_before_s + std::max(crossing(rate_before, rate), crossing(beyond_before_m, beyond_m)) *
+                                      (t - time_before_s);
     time_before_s = t;
     rate_before = rate;
     beyond_before_m = beyond_m;
   }
-  return std::nullopt;
+  return due;
 }
 
 std::vector<double> RecordedController::late_switches_s(const WorldConfig& world,
@@ -150,10 +155,11 @@ std::vector<double> RecordedController::late_switches_s(const WorldConfig& world
     // If the change came early, its due time is after it.
     const bool made = !last && phases[i + 1].phase == HopperPhase::extension;
     const double until_s = made ? end_s_ : to_s, least_m = world.controller.compression_end_min_deflection_m;
-    const auto first = due_s(world, phases[i].time_s, until_s, least_m - kLengthUnsure_m);
-    const auto surely = due_s(world, phases[i].time_s, until_s, least_m + kLengthUnsure_m);
-    if (!first || !surely) continue;
     const double switch_s = to_s - 0.5 * step_s;
+    const Between times{phases[i].time_s, until_s, made ? switch_s : phases[i].time_s};
+    const auto first = due_s(world, times, least_m - kLengthUnsure_m);
+    const auto surely = due_s(world, times, least_m + kLengthUnsure_m);
+    if (!first || !surely) continue;
     late_s.push_back(std::clamp(switch_s - std::clamp(switch_s, *first, std::max(*first, *surely)),
                                 -kMostLate_s, kMostLate_s));
   }

@@ -7,6 +7,11 @@
 
 namespace sandhopper::diagnose {
 
+// Longest time from the rule of a switch to the row that shows it: a controller may ask for its rule in three
+// cycles in a row, read its sensors half a cycle before it acts, and act up to half a cycle before that row.
+// No belief states these.
+inline constexpr double kCyclesToSwitch = 4.0;
+
 // Compares the recorded controller with the believed one. A command depends only on the controller and on
 // what it measured, not on the plant. No physics can therefore explain a difference.
 class RecordedController {
@@ -43,15 +48,20 @@ class RecordedController {
 
   // Delay of every change from compression to extension against its rule, as the next row shows it, s; at
   // most +-20 ms. The change is due once the leg lengthens again and is shorter than in flight by more than
-  // `compression_end_min_deflection_m`. If the encoder's noise makes that uncertain, any time from the first
-  // possible to the first certain instant is in time. A change that never came was due before the compression
-  // ended.
+  // `compression_end_min_deflection_m`, and stays so for kCyclesToSwitch or until the change: near the turn
+  // the speed's noise makes and breaks the rule. If the encoder's noise
+  // makes that uncertain, any time from the first possible to the first certain instant is in time. A change
+  // that never came was due before the compression ended, when its rule held first.
   std::vector<double> late_switches_s(const WorldConfig& world, const std::vector<PhaseChange>& phases) const;
 
  private:
   static constexpr std::size_t kLeastSamples = 50;
   void take_smoothed(const Signal* angle_rad, const Signal* rate_radps);
-  std::optional<double> due_s(const WorldConfig& world, double from_s, double to_s, double shorter_m) const;
+  struct Between {
+    double from_s, to_s, switch_s;
+  };
+  // Start of the time in which the rule holds until `switch_s`, or long enough; else the first time after it.
+  std::optional<double> due_s(const WorldConfig& world, const Between& times, double shorter_m) const;
 
   Leg leg_{LegParameters{}};
   MeasuredLeg measured_;
