@@ -92,7 +92,8 @@ TEST(DiagnoseNeeded, ALargeEffectBeyondDoubtNeedsNoFlips) {
   EXPECT_FALSE(is_sound(evidence(0.9e-8, 0.5), large));
 }
 
-// Of sixteen effects the least p-value by flips at the fit is 16 * 2^(1 - T): below 5 % from ten trials on.
+// The least p-value by flips at the fit of one of sixteen effects is 16 * 2^(1 - T): below 5 % from ten
+// trials on.
 TEST(DiagnoseNeeded, FlipsThatCannotTellOneOfManyEffectsDoNotCountAgainstALargeOne) {
   auto large = beside();
   large.explained = 100.0;

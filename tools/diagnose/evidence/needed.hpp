@@ -7,7 +7,7 @@ namespace sandhopper::diagnose {
 // Figures beside the evidence of one effect.
 struct BesideEvidence {
   std::size_t trials = 0, effects = 1;  // effects: size of the set
-  std::size_t candidates = 1;  // effects that were screened
+  std::size_t candidates = 1;           // effects that were screened
   double rows = 0.0;
   double form_error = 0.0;        // PlantModel::form_error
   bool is_strongest = true;       // smallest p-value of the set
