@@ -49,13 +49,15 @@ ProfileSolver::ContactDepth ProfileSolver::found_at(double speed_mps, double blo
   const double threshold_N = config_.contact_force_N - prior_.contact_early_N;
   std::array<double, kContactCells> passed_m{};
   double gain = 0.0;
+  // The foot is found at a force that rises.
+  const auto rising_N_per_m = [&](std::size_t j) { return std::max(slope_N_per_m_[j], 0.0); };
   const auto force_N = [&](double time_s) {
     gain = 1.0 - std::exp(-time_s / kAccelLowPass_s);
     const double depth_m = speed_mps * (time_s - kAccelLowPass_s * gain);
     double sum_N = blow_N * gain;
     for (std::size_t j = 0; j < kContactCells; ++j) {
       passed_m[j] = std::clamp(depth_m - static_cast<double>(j) * kProfileCell_m, 0.0, kProfileCell_m);
-      sum_N += std::max(slope_N_per_m_[j], 0.0) * passed_m[j];
+      sum_N += rising_N_per_m(j) * passed_m[j];
     }
     return sum_N;
   };
@@ -70,7 +72,7 @@ ProfileSolver::ContactDepth ProfileSolver::found_at(double speed_mps, double blo
     (force_N(time_s) < threshold_N ? early_s : late_s) = time_s;
   }
   force_N(late_s);
-  const double slope_N_per_m = std::max(slope_N_per_m_[passed_m[1] > 0.0 ? 1 : 0], 0.0);
+  const double slope_N_per_m = rising_N_per_m(passed_m[1] > 0.0 ? 1 : 0);
   const double rate_N_per_s = blow_N * (1.0 - gain) / kAccelLowPass_s + slope_N_per_m * speed_mps * gain;
   const double m_per_N = speed_mps / std::max(rate_N_per_s, 1e-9);
   found.mean_m = speed_mps * late_s;

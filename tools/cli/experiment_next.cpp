@@ -1,4 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/cli/bed_options.hpp"
 #include "tools/cli/experiment.hpp"
@@ -13,26 +17,32 @@ struct Options : BedOptions {
   bool bounds = false;
 };
 
+// "2.25 (11)"
+std::string strides_text(const SessionScore& s, NextBy by) {
+  return fmt::format("{:.2f} ({:.0f})", s.mean(by), s.unfinished[static_cast<std::size_t>(by)]);
+}
+
+// The scores of the beds, and their sum.
+std::vector<SessionScore> with_sum(std::vector<SessionScore> scores) {
+  SessionScore all{.bed = "all"};
+  for (const auto& s : scores) all += s;
+  scores.push_back(std::move(all));
+  return scores;
+}
+
 void say_bounds(Session& session, const std::vector<SessionScore>& scores) {
   session.say(
       "\nbounds, with knowledge of the outcome: the stride that leaves the narrowest band, and the one");
   session.say(
       "set-up that ends the session first; strides (sessions not ended), the same of the narrowable part");
   session.say("  {:<17} {:>12} {:>12} {:>12}", "bed", "by outcome", "one set-up", "narrowable");
-  SessionScore all{.bed = "all"};
-  const auto line = [&](const SessionScore& s) {
-    const auto cell = [&](NextBy by) {
-      return fmt::format("{:.2f} ({:.0f})", s.mean(by), s.unfinished[static_cast<std::size_t>(by)]);
-    };
+  const auto lines = with_sum(scores);
+  for (const auto& s : lines)
     session.say(
-        "  {:<17} {:>12} {:>12} {:>12}", s.bed, cell(NextBy::outcome), cell(NextBy::fixed),
+        "  {:<17} {:>12} {:>12} {:>12}", s.bed, strides_text(s, NextBy::outcome),
+        strides_text(s, NextBy::fixed),
         fmt::format("{:.2f} {:.2f}", s.mean_narrowable(NextBy::outcome), s.mean_narrowable(NextBy::fixed)));
-  };
-  for (const auto& s : scores) {
-    line(s);
-    all += s;
-  }
-  line(all);
+  const SessionScore& all = lines.back();
   const auto outcome = all.fewer(NextBy::outcome), fixed = all.fewer(NextBy::fixed);
   session.say(
       "times fewer than by chance: by outcome {:.2f} [{:.2f}, {:.2f}], one set-up {:.2f} [{:.2f}, {:.2f}]",
@@ -46,22 +56,16 @@ void say_sessions(Session& session, const std::vector<SessionScore>& scores) {
   session.say("the curve's variation within a cell; rms error of the planned strides' depth");
   session.say("  {:<17} {:>8} {:>12} {:>12} {:>12} {:>17} {:>9}", "bed", "sessions", "by chance", "planned",
               "oracle", "narrowable", "depth mm");
-  SessionScore all{.bed = "all"};
-  const auto line = [&](const SessionScore& s) {
-    const auto cell = [&](NextBy by) {
-      return fmt::format("{:.2f} ({:.0f})", s.mean(by), s.unfinished[static_cast<std::size_t>(by)]);
-    };
+  const auto lines = with_sum(scores);
+  for (const auto& s : lines) {
     const auto narrowable = fmt::format("{:.2f} {:.2f} {:.2f}", s.mean_narrowable(NextBy::chance),
                                         s.mean_narrowable(NextBy::plan), s.mean_narrowable(NextBy::oracle));
     session.say("  {:<17} {:>8.0f} {:>12} {:>12} {:>12} {:>17} {:>9.1f}", s.bed, s.sessions,
-                cell(NextBy::chance), cell(NextBy::plan), cell(NextBy::oracle), narrowable,
+                strides_text(s, NextBy::chance), strides_text(s, NextBy::plan),
+                strides_text(s, NextBy::oracle), narrowable,
                 1e3 * std::sqrt(s.reach_squared_m2 / std::max(1.0, s.planned)));
-  };
-  for (const auto& s : scores) {
-    line(s);
-    all += s;
   }
-  line(all);
+  const SessionScore& all = lines.back();
   const auto plan = all.fewer(NextBy::plan), oracle = all.fewer(NextBy::oracle);
   session.say(
       "planned against by chance: {:.2f} [{:.2f}, {:.2f}] times fewer; the oracle: {:.2f} [{:.2f}, {:.2f}]",

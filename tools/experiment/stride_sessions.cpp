@@ -52,7 +52,6 @@ class Session {
     ProfileSolver solver(setup_.cycle.stiffness);
     solver.add(first_.sums, 1);
     Halving halving(*this, solver);
-    const auto arm = static_cast<std::size_t>(by);
     std::mt19937_64 engine(seed_);
     for (int strides = 0; strides < kMostStrides && !halving.all_done(); ++strides) {
       const Stride stride = by == NextBy::outcome ? best_outcome(solver, strides)
@@ -60,10 +59,7 @@ class Session {
       solver.add(stride.sums, ProfileSolver::kFreshGround);
       halving.count(solver);
     }
-    score.strides[arm] += halving.needed[0];
-    score.squares[arm] += halving.needed[0] * halving.needed[0];
-    score.unfinished[arm] += !halving.done[0];
-    score.narrowable[arm] += halving.needed[1];
+    add(by, halving.needed, halving.done[0], score);
   }
 
   // The set-up that needs least strides for each band.
@@ -83,11 +79,7 @@ class Session {
       for (std::size_t b = 0; b < kBands.size(); ++b)
         if (halving.done[b]) least[b] = std::min(least[b], halving.needed[b]);
     }
-    constexpr auto kArm = static_cast<std::size_t>(NextBy::fixed);
-    score.strides[kArm] += least[0];
-    score.squares[kArm] += least[0] * least[0];
-    score.unfinished[kArm] += !finished;
-    score.narrowable[kArm] += least[1];
+    add(NextBy::fixed, least, finished, score);
   }
 
  private:
@@ -108,6 +100,16 @@ class Session {
     std::array<double, kBands.size()> enough_N{}, needed{};
     std::array<bool, kBands.size()> done{};
   };
+
+  // `needed`: strides for each band.
+  static void add(NextBy by, const std::array<double, kBands.size()>& needed, bool finished,
+                  SessionScore& score) {
+    const auto arm = static_cast<std::size_t>(by);
+    score.strides[arm] += needed[0];
+    score.squares[arm] += needed[0] * needed[0];
+    score.unfinished[arm] += !finished;
+    score.narrowable[arm] += needed[1];
+  }
 
   Stride chosen_stride(NextBy by, const ProfileSolver& solver, int strides, std::mt19937_64& engine,
                        SessionScore& score) const {

@@ -90,8 +90,8 @@ StudyFigure group_figure(const CurveGroup& group) {
     figure.marks.push_back({1e3 * all_m, "all trials to here"});
   figure.note =
       "Dark band: 95 % interval of the mean over places of this ground; the line in it is the mean. Light "
-      "band: "
-      "one new trial lies in it, with 95 %. Both hold at each depth by itself, and are drawn where at least "
+      "band: one new trial lies in it, with 95 %. Both hold at each depth by itself, and are drawn where at "
+      "least "
       "three trials reached (with two trials, where both did).";
   if (group.curves.size() > kDrawnCurves)
     figure.note += fmt::format(" The first {} of {} trials are drawn.", kDrawnCurves, group.curves.size());

@@ -60,16 +60,11 @@ std::string where_text(const Where& w) {
 // With nothing found, before and after are the same fit.
 std::string error_text(const ChannelFit& f, bool changed) {
   const auto unit = quantity_of(f.channel).unit;
-  if (!changed)
-    return fmt::format(
-        "error  {}: {} on held-out trials (rms {}; noise floor {}, noise of a sample {}{}{})\n", f.channel,
-        times_the_floor(f.heldout.before, f.floor), plain_number(f.heldout.before, 4),
-        plain_number(f.floor, 4), plain_number(f.noise, 4), unit.empty() ? "" : ", all in ", unit);
   return fmt::format(
-      "error  {}: {} on held-out trials (rms {} and {}; noise floor {}, noise of a sample {}{}{})\n",
-      f.channel, times_the_floor(f.heldout, f.floor), plain_number(f.heldout.before, 4),
-      plain_number(f.heldout.after, 4), plain_number(f.floor, 4), plain_number(f.noise, 4),
-      unit.empty() ? "" : ", all in ", unit);
+      "error  {}: {} on held-out trials (rms {}{}; noise floor {}, noise of a sample {}{}{})\n", f.channel,
+      changed ? times_the_floor(f.heldout, f.floor) : times_the_floor(f.heldout.before, f.floor),
+      plain_number(f.heldout.before, 4), changed ? " and " + plain_number(f.heldout.after, 4) : "",
+      plain_number(f.floor, 4), plain_number(f.noise, 4), unit.empty() ? "" : ", all in ", unit);
 }
 
 std::string next_text(const NextTrial& next) {
@@ -205,8 +200,7 @@ std::string below_the_floor(const Diagnosis& d) {
       !taken_up_before(d).empty())
     return "";
   return "No channel's error is clearly above its noise floor before: what was found shows in the shape of "
-         "the "
-         "errors over time, which is the same in all trials, and not in their size.";
+         "the errors over time, which is the same in all trials, and not in their size.";
 }
 
 std::string headline(const Diagnosis& d) {
@@ -226,8 +220,8 @@ std::string headline(const Diagnosis& d) {
                ? "Something unlisted is left, beside what the corrected model contains. " + remainder_text(d)
            : explains_little(d)
                ? "Something is missing, and no listed effect explains half of it: check units, signs, "
-                 "columns, "
-                 "the selected part of each recording and the believed numbers first (hop campaign check)."
+                 "columns, the selected part of each recording and the believed numbers first (hop campaign "
+                 "check)."
                : "Something is missing that no listed effect describes.";
   const std::string names = names_in_words(d);
   const auto is_name = [](const FoundEffect& e) { return !e.is_unknown(); };

@@ -108,8 +108,13 @@ double TrialEvidence::held_out_drop() const {
   return std::max(0.0, drop);
 }
 
-double TrialEvidence::t() const { return size() / standard_error(); }
-double TrialEvidence::p_value() const { return student_t_two_sided(t(), scatter().degrees_of_freedom); }
+double TrialEvidence::p_value() const {
+  const double information_sum = sum(information);
+  if (information_sum <= 0.0) return 1.0;
+  const TrialScatter of_trials = scatter();
+  const double t = size() * std::sqrt(information_sum / of_trials.ratio);
+  return student_t_two_sided(t, of_trials.degrees_of_freedom);
+}
 
 double sign_flip_p_value(const std::vector<TrialEvidence>& candidates, std::size_t chosen, unsigned seed) {
   const std::size_t trials = candidates[chosen].score.size();

@@ -43,7 +43,6 @@ struct TrialEvidence {
 
   double total_information() const;
   double size() const;
-  double t() const;              // size / standard error
   TrialScatter scatter() const;  // with that of the noise
   // Pearson's dispersion of quasi-likelihood, pooled with the noise: every trial counts alike.
   //   (nu0 + sum_t (u_t - b I_t)^2 / I_t) / (nu0 + T - 1),   nu0 = kModelTrials

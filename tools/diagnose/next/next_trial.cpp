@@ -146,8 +146,7 @@ void split(const Problem& problem, const PlannedTrials& planned, const Search& s
   next = {};
   next.why = fmt::format(
       "None: no single one of {} possible trials distinguishes {} from {}; the best would have to be "
-      "repeated "
-      "about {:.0f} times.",
+      "repeated about {:.0f} times.",
       planned.size(), groups[shown.group].names[0], others, repeats);
 }
 

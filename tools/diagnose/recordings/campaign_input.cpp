@@ -154,8 +154,7 @@ void tell_free_axes(const Campaign& campaign, const FreeAxes& free, CampaignInpu
              : "");
   if (free.held > 0)
     tell(fmt::format("is unknown at the start of {} of {} trials, where something holds the axis for at most "
-                     "{:.2f} s; "
-                     "these rows are not used",
+                     "{:.2f} s; these rows are not used",
                      free.held, all, free.longest_held_s),
          "cut the recording where the axis is let go");
 }

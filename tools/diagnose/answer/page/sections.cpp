@@ -198,8 +198,8 @@ StudySection where_section(const Diagnosis& d) {
   StudyTable table;
   table.columns = {"channel", "phase", "port", "axis", "from", "to", "share of the change, %", "p", "trials"};
   table.text_columns = 4;
-  constexpr std::size_t kMostRows =
-      15;  // A hopper has up to 84 cells; the first ones have the largest shares.
+  // A hopper has up to 84 cells; the first ones have the largest shares.
+  constexpr std::size_t kMostRows = 15;
   for (const auto& w : d.where | std::views::take(kMostRows))
     table.rows.push_back({w.channel, w.phase_in_words(), w.port, quantity_of(w.coordinate).label(),
                           to_digits_of(w.range_low, w.range_high - w.range_low),

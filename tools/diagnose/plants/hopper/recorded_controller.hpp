@@ -49,9 +49,9 @@ class RecordedController {
   // Delay of every change from compression to extension against its rule, as the next row shows it, s; at
   // most +-20 ms. The change is due once the leg lengthens again and is shorter than in flight by more than
   // `compression_end_min_deflection_m`, and stays so for kCyclesToSwitch or until the change: near the turn
-  // the speed's noise makes and breaks the rule. If the encoder's noise
-  // makes that uncertain, any time from the first possible to the first certain instant is in time. A change
-  // that never came was due before the compression ended, when its rule held first.
+  // the speed's noise makes and breaks the rule. If the encoder's noise makes that uncertain, any time from
+  // the first possible to the first certain instant is in time. A change that never came was due before the
+  // compression ended, when its rule held first.
   std::vector<double> late_switches_s(const WorldConfig& world, const std::vector<PhaseChange>& phases) const;
 
  private:
