@@ -119,6 +119,25 @@ TEST(DiagnoseStatistics, TrialsOfVeryDifferentInformationKeepTheLevel) {
   EXPECT_NEAR(ratio / kDraws, 1.0, 0.02);
 }
 
+// If the trials scatter 2.28 times as much as the noise, the noise's share in the pooled scatter lets 0.4 %
+// pass at 0.1 % (tools/diagnose/README.md).
+TEST(DiagnoseStatistics, TrialsThatScatterMoreThanTheNoisePassMoreOftenThanTheLevelSays) {
+  std::mt19937_64 engine(12);
+  std::normal_distribution<double> normal;
+  constexpr int kDraws = 40'000;
+  double passed = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    TrialEvidence evidence;
+    for (const double height : {0.05, 0.11, 0.23, 0.5})
+      for (int repeat = 0; repeat < 3; ++repeat) {
+        evidence.information.push_back(std::pow(height, 4));
+        evidence.score.push_back(2.28 * std::sqrt(evidence.information.back()) * normal(engine));
+      }
+    passed += evidence.p_value() < 1e-3;
+  }
+  EXPECT_NEAR(passed / kDraws, 0.004, 0.001);  // three standard errors
+}
+
 // Products of residual and one column of a trial: score u and information h.
 Eigen::MatrixXd gram_of(double u, double h) { return Eigen::MatrixXd{{1e3, u}, {u, h}}; }
 
