@@ -60,9 +60,9 @@ void Keepalive::run() {
 void Keepalive::tell_state() {
   auto status = fmt::format("STATUS={}", name_of(heart_.state()));
   if (heart_.fault() != Fault::none) status += fmt::format(", fault {}", name_of(heart_.fault()));
-  if (status == told_) return;
+  if (status == sent_status_) return;
   ::sd_notify(0, status.c_str());
-  told_ = std::move(status);
+  sent_status_ = std::move(status);
 }
 
 }  // namespace sandhopper

@@ -36,7 +36,7 @@ class Keepalive {
   KernelWatchdog kernel_;
   std::uint64_t service_period_us_ = 0;  // 0: no service manager asks for it
   std::int64_t period_ns_;
-  std::string told_;
+  std::string sent_status_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

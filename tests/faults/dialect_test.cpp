@@ -59,12 +59,12 @@ TEST(Dialects, EachIsProbedEnabledRunAndLeftWithoutAKick) {
     EXPECT_LT(bench.bus->most_torque_Nm(), 0.02) << name_of(dialect) << ": enabling makes no torque";
     bench.replies = 0;
     for (int i = 0; i < 100; ++i) bench.cycle(DriveRequest::run, 0.7);
-    EXPECT_NEAR(bench.bus->told(Side::left).torque_Nm, 0.7, 0.02) << name_of(dialect);
+    EXPECT_NEAR(bench.bus->command(Side::left).torque_Nm, 0.7, 0.02) << name_of(dialect);
     EXPECT_NEAR(bench.newest.current_A * 0.0868, 0.7, 0.06) << name_of(dialect);
     EXPECT_GE(bench.replies, dialect == Dialect::servo ? 98 : 198) << name_of(dialect);
     bench.driver.shut_down();
-    EXPECT_LT(std::abs(bench.bus->told(Side::left).torque_Nm), 0.02) << name_of(dialect);
-    EXPECT_LT(std::abs(bench.bus->told(Side::right).torque_Nm), 0.02) << name_of(dialect);
+    EXPECT_LT(std::abs(bench.bus->command(Side::left).torque_Nm), 0.02) << name_of(dialect);
+    EXPECT_LT(std::abs(bench.bus->command(Side::right).torque_Nm), 0.02) << name_of(dialect);
   }
 }
 
@@ -88,10 +88,10 @@ TEST(Dialects, ADriveThatChangesItsDialectLaterGetsNoMoreTorque) {
   Bench bench(Dialect::mit, Dialect::mit);
   bench.driver.probe();
   for (int i = 0; i < 30; ++i) bench.cycle(DriveRequest::run, 0.7);
-  EXPECT_NEAR(bench.bus->told(Side::left).torque_Nm, 0.7, 0.02);
+  EXPECT_NEAR(bench.bus->command(Side::left).torque_Nm, 0.7, 0.02);
   bench.bus->set(Device::bus, Kind::foreign);
   for (int i = 0; i < 3; ++i) bench.cycle(DriveRequest::run, 0.7);
-  EXPECT_LT(std::abs(bench.bus->told(Side::left).torque_Nm), 0.02);
+  EXPECT_LT(std::abs(bench.bus->command(Side::left).torque_Nm), 0.02);
 }
 
 TEST(Dialects, TheWatchdogsFramesTakeTheTorqueFromEach) {
@@ -99,13 +99,13 @@ TEST(Dialects, TheWatchdogsFramesTakeTheTorqueFromEach) {
     Bench bench(dialect, dialect);
     bench.driver.probe();
     for (int i = 0; i < 100; ++i) bench.cycle(DriveRequest::run, 0.7);
-    ASSERT_NEAR(bench.bus->told(Side::right).torque_Nm, 0.7, 0.02) << name_of(dialect);
+    ASSERT_NEAR(bench.bus->command(Side::right).torque_Nm, 0.7, 0.02) << name_of(dialect);
     const auto frames = torque_cut_frames(can_with(dialect));
     EXPECT_EQ(frames.size(), dialect == Dialect::mit ? 4U : 2U) << name_of(dialect);
     for (const auto& frame : frames) bench.bus->send(frame);
     for (const auto side : {Side::left, Side::right}) {
-      EXPECT_LT(std::abs(bench.bus->told(side).torque_Nm), 0.02) << name_of(dialect);
-      EXPECT_LT(bench.bus->told(side).kp_Nm_per_rad + bench.bus->told(side).kd_Nm_s_per_rad, 0.01)
+      EXPECT_LT(std::abs(bench.bus->command(side).torque_Nm), 0.02) << name_of(dialect);
+      EXPECT_LT(bench.bus->command(side).kp_Nm_per_rad + bench.bus->command(side).kd_Nm_s_per_rad, 0.01)
           << name_of(dialect);
       EXPECT_EQ(bench.bus->enabled(side), dialect != Dialect::mit) << name_of(dialect);
     }
@@ -140,7 +140,7 @@ TEST(Bus, AQueueThatIsBlockedLetsNoRowOfOldTorquesOut) {
   bench.bus->set(Device::bus, std::nullopt);
   EXPECT_LE(bench.bus->stale_torques(), 2) << "what the controller held when the bus stopped, one a motor";
   bench.cycle(DriveRequest::off, 0.0);
-  EXPECT_LT(std::abs(bench.bus->told(Side::left).torque_Nm), 0.02);
+  EXPECT_LT(std::abs(bench.bus->command(Side::left).torque_Nm), 0.02);
 }
 
 }  // namespace

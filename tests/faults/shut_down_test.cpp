@@ -23,7 +23,7 @@ struct Running {
     driver = std::make_unique<CubeMarsDrives>(can, std::move(made));
     driver->probe();
     cycles(DriveRequest::run, 100);
-    EXPECT_NEAR(bus->told(Side::left).torque_Nm, 0.7, 0.02) << name_of(dialect);
+    EXPECT_NEAR(bus->command(Side::left).torque_Nm, 0.7, 0.02) << name_of(dialect);
   }
   void cycles(DriveRequest request, int count) {
     for (int i = 0; i < count; ++i) {
@@ -38,7 +38,7 @@ struct Running {
   double most_told_Nm() const {
     double most = 0.0;
     for (const auto side : kSides)
-      if (bus->enabled(side)) most = std::max(most, std::abs(bus->told(side).torque_Nm));
+      if (bus->enabled(side)) most = std::max(most, std::abs(bus->command(side).torque_Nm));
     return most;
   }
 
@@ -120,7 +120,7 @@ TEST(HostLaw, IsNotWorkedOutFromAnOldState) {
       r.driver->drain([](const MotorReading&) {});
       r.driver->command(command, DriveRequest::run, r.world.now_ns());
     }
-    return r.bus->told(Side::left).torque_Nm;
+    return r.bus->command(Side::left).torque_Nm;
   };
   EXPECT_NEAR(hold(20), 1.0, 0.2) << "the leg is held: 1 N m s/rad times 1 rad/s";
   r.bus->set(Device::bus, Kind::lost);

@@ -277,7 +277,7 @@ TEST(DiagnoseAnotherProgram, WhatAllTrialsShareIsAnEffectsToExplain) {
     point.nuisances[t][torque] = -0.03 + 2e-4 * (static_cast<double>(t) - 1.5);
   const auto starts = take_spread_as_seen(problem, point);
   EXPECT_LT(first[torque].sd, 0.1 * believed);
-  EXPECT_FALSE(first[torque].may_lean);
+  EXPECT_FALSE(first[torque].shift_is_evidence);
   EXPECT_EQ(point.nuisances[0][torque], 0.0);
   const auto start = std::ranges::find_if(starts, [&](const Point& p) {
     return problem.candidates[p.hypothesis.candidates.front()].label() == "actuator.torque_constant";
@@ -311,7 +311,7 @@ TEST(DiagnoseAnotherProgram, TheAgeOfSamplesDoesNotLean) {
   for (std::size_t i = 0; i < first.size(); ++i)
     if (first[i].name.ends_with("sample_age_share"))
       for (auto& own : point.nuisances) own[i] = 3.0 * first[i].sd;
-  EXPECT_EQ(largest_lean(problem, point).z, 0.0);
+  EXPECT_EQ(largest_common_shift(problem, point).z, 0.0);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Diagnosis diagnosed(const CampaignFolder& folder) {
   const auto campaign = load_campaign(folder.path());
   EngineOptions options;
   for (const auto& n : used_numbers(campaign).numbers)
-    options.belief.push_back({n.key, n.low, n.high, n.unit, n.said_by, usual_error(n), 0.0});
+    options.belief.push_back({n.key, n.low, n.high, n.unit, n.source_text, usual_error(n), 0.0});
   return diagnose(read_campaign(campaign).recordings, options);
 }
 
@@ -56,10 +56,10 @@ const BelievedNumber& number(const Diagnosis& diagnosis, std::string_view key) {
 }
 
 TEST(DiagnoseBelief, TheErrorThatShowsGrowsWithTheNoise) {
-  CampaignFolder quiet, loud;
+  CampaignFolder quiet, noisy;
   write_swings(quiet, 1e-3);
-  write_swings(loud, 4e-3);
-  const auto a = diagnosed(quiet), b = diagnosed(loud);
+  write_swings(noisy, 4e-3);
+  const auto a = diagnosed(quiet), b = diagnosed(noisy);
   EXPECT_EQ(a.verdict, Verdict::consistent);
   for (const auto* key : {"axis.inertia_kg_m2", "axis.gravity_torque_Nm", "axis.viscous_friction_Nm_s"}) {
     const double ratio = number(b, key).error_that_shows / number(a, key).error_that_shows;
@@ -130,7 +130,7 @@ TEST(DiagnoseBelief, WhatIsWithinTheLastDigitOfABeliefIsNotMissing) {
     const auto used = used_numbers(campaign);
     EngineOptions options;
     for (const auto& n : used.numbers)
-      options.belief.push_back({n.key, n.low, n.high, n.unit, n.said_by, usual_error(n), 0.0});
+      options.belief.push_back({n.key, n.low, n.high, n.unit, n.source_text, usual_error(n), 0.0});
     const auto d =
         diagnose_as_written(read_campaign(campaign).recordings, options, rounding_of(used, campaign));
     const bool is_noted = std::ranges::any_of(d.notes, [](const std::string& note) {

@@ -284,19 +284,19 @@ TEST(DiagnoseHopper, NuisancesThatAllTrialsBendAlikeShowWhatNoDerivativeShows) {
     Search search(problem, options);
     const auto& best = search.run(point);
     struct Found {
-      double lean, left;
+      double shift, left;
       std::vector<std::string> names;
-    } out{std::abs(largest_lean(problem, search.null().fit.point).z),
-          std::abs(largest_lean(problem, best.fit.point).z),
+    } out{std::abs(largest_common_shift(problem, search.null().fit.point).z),
+          std::abs(largest_common_shift(problem, best.fit.point).z),
           {}};
     for (const auto c : best.set) out.names.push_back(problem.candidates[c].label());
     return out;
   };
   const auto nothing = found(hops_on_sand([](Edits&) {}));
-  EXPECT_LT(nothing.lean, 4.0);
+  EXPECT_LT(nothing.shift, 4.0);
   EXPECT_TRUE(nothing.names.empty());
   const auto tilt = found(hops_on_sand(tilted));
-  EXPECT_GT(tilt.lean, 4.5);
+  EXPECT_GT(tilt.shift, 4.5);
   EXPECT_EQ(tilt.names, std::vector<std::string>{"terrain.foot_tilt"});
   EXPECT_LT(tilt.left, 4.0);
 }

@@ -116,10 +116,10 @@ TEST(DiagnoseLawLimits, AnErrorOfTheFormGainsLittle) {
 }
 
 TEST(DiagnoseLawLimits, BesideNamesLessLeaningIsUnknown) {
-  EXPECT_FALSE(is_unknown_lean(-4.3, true));
-  EXPECT_TRUE(is_unknown_lean(-4.7, true));
-  EXPECT_FALSE(is_unknown_lean(5.8, false));
-  EXPECT_TRUE(is_unknown_lean(6.2, false));
+  EXPECT_FALSE(is_unknown_shift(-4.3, true));
+  EXPECT_TRUE(is_unknown_shift(-4.7, true));
+  EXPECT_FALSE(is_unknown_shift(5.8, false));
+  EXPECT_TRUE(is_unknown_shift(6.2, false));
 }
 
 // p of one gain: that of a normal variable, at most 1 % from 2.58 standard deviations on.

@@ -19,7 +19,7 @@ struct Levels {
   double innovation = 1.0;  // of the accelerometer: 1 for white noise
 };
 
-std::optional<LoudChannel> loudest(const Levels& levels) {
+std::optional<NoisyChannel> noisiest(const Levels& levels) {
   auto prepared = prepare(drops(nothing, 1, 4));
   Problem& problem = prepared.problem;
   std::vector<ChannelNoise> noise;
@@ -35,24 +35,25 @@ std::optional<LoudChannel> loudest(const Levels& levels) {
     noise.push_back(std::move(of_channel));
   }
   problem.noise = NoiseModel(std::move(noise));
-  return loudest_channel(problem);
+  return noisiest_channel(problem);
 }
 
 TEST(DiagnoseLoud, AChannelIsLoudFromFourAndAHalfTimesItsSensorOn) {
-  EXPECT_FALSE(loudest({.accel = 4.3}));
-  EXPECT_TRUE(loudest({.accel = 4.7}));
+  EXPECT_FALSE(noisiest({.accel = 4.3}));
+  EXPECT_TRUE(noisiest({.accel = 4.7}));
 }
 
 TEST(DiagnoseLoud, TheSensorAloneIsNoisyIfTheOtherChannelsAreQuiet) {
-  const auto quiet = loudest({.height = 1.25, .accel = 6.0}), moved = loudest({.height = 1.35, .accel = 6.0});
+  const auto quiet = noisiest({.height = 1.25, .accel = 6.0}),
+             moved = noisiest({.height = 1.35, .accel = 6.0});
   ASSERT_TRUE(quiet && moved);
   EXPECT_EQ(quiet->port, "accel_mps2");
   EXPECT_NE(moved->port, "accel_mps2");
 }
 
 TEST(DiagnoseLoud, ASmoothAccelerationIsReal) {
-  const auto smooth = loudest({.accel = 6.0, .innovation = 0.57}),
-             rough = loudest({.accel = 6.0, .innovation = 0.63});
+  const auto smooth = noisiest({.accel = 6.0, .innovation = 0.57}),
+             rough = noisiest({.accel = 6.0, .innovation = 0.63});
   ASSERT_TRUE(smooth && rough);
   EXPECT_NE(smooth->port, "accel_mps2");
   EXPECT_EQ(rough->port, "accel_mps2");
@@ -69,7 +70,7 @@ TEST(DiagnoseLoud, TwelveTrialsLeanAsMuchAsFourteen) {
   Point point = null_point(problem);
   for (std::size_t t = 0; t < problem.trials.size(); ++t)
     point.nuisances[t][0] = problem.trials[t]->trial_nuisances[0].sd;
-  EXPECT_NEAR(largest_lean(problem, point).z, std::sqrt(12.0), 1e-9);
+  EXPECT_NEAR(largest_common_shift(problem, point).z, std::sqrt(12.0), 1e-9);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(DiagnoseManyTrials, LeanAsTwelveOfThemDo) {
     ASSERT_FALSE(problem.trials.front()->trial_nuisances.empty());
     for (std::size_t t = 0; t < trials; ++t)
       point.nuisances[t][0] = 0.5 * problem.trials[t]->trial_nuisances[0].sd;
-    EXPECT_NEAR(largest_lean(problem, point).z, 0.5 * std::sqrt(12.0), 1e-9) << trials;
+    EXPECT_NEAR(largest_common_shift(problem, point).z, 0.5 * std::sqrt(12.0), 1e-9) << trials;
   }
 }
 

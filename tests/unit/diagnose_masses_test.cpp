@@ -105,7 +105,7 @@ TEST(DiagnoseMasses, WhatTheRecordingsShowDirectlyIsNearlySure) {
 
 TEST(DiagnoseMasses, AnUnknownEffectWithoutALawIsHalfSure) {
   Diagnosis d;
-  report_unknown_loud({"force_N", 6.0, "force_N"}, d);
+  report_unknown_noise({"force_N", 6.0, "force_N"}, d);
   EXPECT_NEAR(d.effects.front().mass, 0.5, 1e-12);
 }
 

@@ -135,7 +135,7 @@ TEST(DiagnoseMisfit, NamesThatLeaveOtherTrialsNoNearerGainNothing) {
   EXPECT_LT(gain(1.1), 0.0);
   // A lower prior cost of the nuisance parameters counts as a gain, too.
   const Nuisance& release = problem.trials.front()->trial_nuisances.front();
-  ASSERT_TRUE(release.may_lean);
+  ASSERT_TRUE(release.shift_is_evidence);
   null.nuisances.front().front() = 3.0 * release.sd;
   EXPECT_DOUBLE_EQ(gain(1.0), 9.0);
 }
@@ -157,22 +157,22 @@ TEST(DiagnoseMisfit, TrialsLeanByWhatTheyHaveInCommon) {
   ASSERT_GE(problem.trials.size(), 4u);
   const auto trials = static_cast<double>(problem.trials.size());
   Point point = null_point(problem);
-  EXPECT_EQ(largest_lean(problem, point).z, 0.0);
+  EXPECT_EQ(largest_common_shift(problem, point).z, 0.0);
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     point.nuisances[t][0] = -1.5 * problem.trials[t]->trial_nuisances[0].sd;  // equal in all trials
     // different between trials
     point.nuisances[t][1] = (t % 2 == 0 ? 5.0 : -5.0) * problem.trials[t]->trial_nuisances[1].sd;
   }
-  const auto lean = largest_lean(problem, point);
-  EXPECT_EQ(lean.nuisance, first[0].name);
-  EXPECT_NEAR(lean.z, -1.5 * std::sqrt(trials), 1e-12);
+  const auto shift = largest_common_shift(problem, point);
+  EXPECT_EQ(shift.nuisance, first[0].name);
+  EXPECT_NEAR(shift.z, -1.5 * std::sqrt(trials), 1e-12);
 }
 
 TEST(DiagnoseMisfit, WhatLeansIsUnknownWhereItActs) {
   Diagnosis d;
-  report_unknown_leaning({"release_height_m", "", 9.0}, d);
+  report_unknown_shift({"release_height_m", "", 9.0}, d);
   EXPECT_TRUE(d.effects.empty());
-  report_unknown_leaning({"bed_fluctuation", "ground", -9.0}, d);
+  report_unknown_shift({"bed_fluctuation", "ground", -9.0}, d);
   ASSERT_EQ(d.effects.size(), 1u);
   EXPECT_EQ(d.effects.front().id, "unknown@ground");
   EXPECT_NE(d.effects.front().statement.find("bed_fluctuation"), std::string::npos);

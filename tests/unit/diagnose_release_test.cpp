@@ -34,8 +34,8 @@ TEST(DiagnoseRelease, TheLossOfWeightIsTheRelease) {
 // speed, so it says nothing of those at rest.
 TEST(DiagnoseRelease, ASpreadOfTheReleaseSpeedIsOfThoseThatHaveOne) {
   auto recordings = drops([](double, double, double) { return 0.0; }, 1, 2);
-  const auto sd_mps = [&](double told_mps) {
-    recordings.trials.front().setup["release_speed_mps"] = told_mps;
+  const auto sd_mps = [&](double stated_mps) {
+    recordings.trials.front().setup["release_speed_mps"] = stated_mps;
     return prepare(recordings).problem.trials.front()->trial_nuisances.at(1).sd;
   };
   const auto state = [&](const std::string& key, double value) {

@@ -62,7 +62,7 @@ TEST(DiagnosisText, AnEffectWhoseIntervalHoldsZeroIsNoFindingInTheHeadline) {
 // The tables have the channel's unit, so the sentences beside them have it, too.
 TEST(DiagnosisText, NoiseAndLimitsStandInTheUnitOfTheTables) {
   SensorNoise noise{
-      .channel = "height_m", .stated = 0.004, .said_by = "", .measured = 0.00507, .used = 0.00531};
+      .channel = "height_m", .stated = 0.004, .source = "", .measured = 0.00507, .used = 0.00531};
   EXPECT_THAT(noise.in_words(), HasSubstr("0.00531 m, 1.3 times the 0.004 m stated"));
   EXPECT_THAT(noise.in_words(), Not(HasSubstr("mm")));
   FoundParameter depth{"crust_depth_m", 0.0002, 0.0002, 0.00045, false};
@@ -84,7 +84,7 @@ Diagnosis with_noise(double stated, double measured, double used) {
   Diagnosis d;
   d.noise = {{.channel = "position_rad",
               .stated = stated,
-              .said_by = stated > 0.0 ? "nominal.toml, line 5" : "",
+              .source = stated > 0.0 ? "nominal.toml, line 5" : "",
               .measured = measured,
               .used = used,
               .is_raised = true,

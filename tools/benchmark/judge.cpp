@@ -58,13 +58,13 @@ std::size_t of_unit(const Map& map, const std::string& unit) {
 
 void check_intervals(Judged& j, const Truth::Effect& effect, const Claim& claim) {
   for (const auto& [key, value] : effect.parameters) {
-    const auto* told = counterpart(effect, key, claim);
-    if (!told) {
+    const auto* claimed = counterpart(effect, key, claim);
+    if (!claimed) {
       ++j.intervals_without_counterpart;
       continue;
     }
     ++j.intervals;
-    j.intervals_hold += value >= told->low && value <= told->high;
+    j.intervals_hold += value >= claimed->low && value <= claimed->high;
   }
 }
 

@@ -56,8 +56,8 @@ Json recommended_setup(const fs::path& diagnosis) {
 }
 
 void follow_up(const RunOptions& options, const conceal::Case& one, const std::string& name) {
-  const auto told = options.folder / "diagnoses" / (name + ".json");
-  const auto diagnosis = read_diagnosis(told);
+  const auto file = options.folder / "diagnoses" / (name + ".json");
+  const auto diagnosis = read_diagnosis(file);
   if (!diagnosis || diagnosis->claims.empty() || diagnosis->claims.front().alike.empty()) return;
   const auto repeat = [&](const char* folder, const conceal::Setup& setup) {
     const auto root = options.folder / folder;
@@ -66,7 +66,7 @@ void follow_up(const RunOptions& options, const conceal::Case& one, const std::s
     diagnose(options, root, name);
   };
   if (diagnosis->asks_for_a_split) try {
-      repeat("after", conceal::completed(one, recommended_setup(told)));
+      repeat("after", conceal::completed(one, recommended_setup(file)));
       // The apparatus cannot do this trial: counted as not separated.
     } catch (const std::invalid_argument& error) {
       conceal::write_text(options.folder / "diagnoses" / (name + ".refused"),

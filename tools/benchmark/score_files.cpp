@@ -57,14 +57,14 @@ std::vector<Figure> split_figures(const std::vector<Truth>& truths, const std::f
   Figure random{"a random trial splits the class (control)", 0, 0, 0.85, 0.95};
   Figure denied{"no trial would split the class, as told, and a random one does", 0, 0, 0.05, 0.0, true};
   for (const auto& truth : truths) {
-    const auto told = read_diagnosis(diagnoses / (truth.name + ".json"));
-    const auto before = judge(truth, told);
+    const auto diagnosis = read_diagnosis(diagnoses / (truth.name + ".json"));
+    const auto before = judge(truth, diagnosis);
     if (!before.right || before.class_size < 2) continue;
     const auto splits = [&](const char* folder) {
       const auto after = judge(truth, read_diagnosis(root / folder / "diagnoses" / (truth.name + ".json")));
       return after.right && after.class_size < before.class_size;
     };
-    if (!told->asks_for_a_split) {
+    if (!diagnosis->asks_for_a_split) {
       ++denied.of;
       denied.count += splits("random");
       continue;

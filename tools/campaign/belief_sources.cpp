@@ -131,17 +131,17 @@ UsedNumbers used_numbers(const Campaign& campaign) {
     const auto line = lines.find(key);
     if (own > 0) {
       number.source = UsedNumber::Source::trial_setup;
-      number.said_by = fmt::format("set-up of {} of {} trials", own, of_trials.size());
+      number.source_text = fmt::format("set-up of {} of {} trials", own, of_trials.size());
     } else if (line != lines.end()) {
       number.source = UsedNumber::Source::model_file;
       const auto error = errors.find(key);
       number.written_error = error == errors.end() ? 0.0 : error->second;
-      number.said_by = fmt::format("{}, line {}", campaign.model.filename().string(), line->second);
+      number.source_text = fmt::format("{}, line {}", campaign.model.filename().string(), line->second);
     } else {
       if (unused.contains(key)) continue;
       if (value == 0.0) ++used.off;
       if (value == 0.0 || is_without_effect(campaign.plant, key)) continue;
-      number.said_by = fmt::format("default: {}", reason_of_default(key));
+      number.source_text = fmt::format("default: {}", reason_of_default(key));
     }
     used.numbers.push_back(std::move(number));
   }
@@ -149,21 +149,21 @@ UsedNumbers used_numbers(const Campaign& campaign) {
 }
 
 std::vector<std::string> stated_effects(const Campaign& campaign) {
-  std::vector<std::string> told;
-  if (campaign.model.empty()) return told;
+  std::vector<std::string> lines;
+  if (campaign.model.empty()) return lines;
   const auto document = parse_config_file(campaign.model.string());
   const auto* table = document.root.find("effects");
-  if (table == nullptr) return told;
+  if (table == nullptr) return lines;
   const auto& effects =
       std::visit([](const auto& plant) -> const BeliefEffects& { return plant.effects; }, campaign.belief);
   for (const auto& node : table->children) {
     std::vector<std::string> parameters;
     for (const auto& [name, value] : effects.at(node.key))
       parameters.push_back(fmt::format("{} = {:.6g}", name, value));
-    told.push_back(fmt::format("effects.\"{}\": {} ({}, line {})", node.key, fmt::join(parameters, ", "),
-                               campaign.model.filename().string(), node.key_position.line));
+    lines.push_back(fmt::format("effects.\"{}\": {} ({}, line {})", node.key, fmt::join(parameters, ", "),
+                                campaign.model.filename().string(), node.key_position.line));
   }
-  return told;
+  return lines;
 }
 
 namespace {
@@ -277,19 +277,19 @@ bool is_listed(const UsedNumber& n) {
 }
 
 std::string defaults_of_sensors(const UsedNumbers& used) {
-  std::vector<std::string> told;
+  std::vector<std::string> lines;
   for (const auto& n : used.numbers)
     if (!is_listed(n))
-      told.push_back(fmt::format("{} = {:.6g}{}{}", n.key, n.value, n.unit.empty() ? "" : " ", n.unit));
-  return told.empty() ? ""
-                      : fmt::format("of this project's sensors and trials, because you state none: {}",
-                                    fmt::join(told, ", "));
+      lines.push_back(fmt::format("{} = {:.6g}{}{}", n.key, n.value, n.unit.empty() ? "" : " ", n.unit));
+  return lines.empty() ? ""
+                       : fmt::format("of this project's sensors and trials, because you state none: {}",
+                                     fmt::join(lines, ", "));
 }
 
 std::string to_string(const UsedNumber& n) {
   const std::string value =
       n.low == n.high ? fmt::format("{:.6g}", n.low) : fmt::format("{:.6g} to {:.6g}", n.low, n.high);
-  return fmt::format("{} = {}{}{} ({})", n.key, value, n.unit.empty() ? "" : " ", n.unit, n.said_by);
+  return fmt::format("{} = {}{}{} ({})", n.key, value, n.unit.empty() ? "" : " ", n.unit, n.source_text);
 }
 
 }  // namespace sandhopper

@@ -20,7 +20,7 @@ struct UsedNumber {
   double low = 0.0, high = 0.0;  // smallest and largest value over the trials
   std::string unit{};
   Source source = Source::plant_default;
-  std::string said_by{};  // "nominal.toml, line 5", "set-up of 3 trials", "default: <reason>"
+  std::string source_text{};  // "nominal.toml, line 5", "set-up of 3 trials", "default: <reason>"
   // Half a unit of the last digit that was written, through the conversion that was done; 0: nobody wrote it.
   double written_error = 0.0;
 };

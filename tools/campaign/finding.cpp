@@ -42,9 +42,9 @@ std::vector<std::string> in_lines(const std::vector<Finding>& findings, bool wit
   // By the words and how often they came before in the same file: two gaps in one file are two lines.
   std::map<std::pair<std::string, std::size_t>, std::size_t> places;
   std::map<std::pair<std::string, std::string>, std::size_t> in_file;
-  std::set<std::string> told;
+  std::set<std::string> seen;
   for (const auto& finding : findings) {
-    if (!told.insert(to_string(finding)).second) continue;
+    if (!seen.insert(to_string(finding)).second) continue;
     const auto words = words_of(finding);
     const auto nth = in_file[{words, finding.file}]++;
     const auto [place, is_new] = places.emplace(std::pair(words, nth), shared.size());

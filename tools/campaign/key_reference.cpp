@@ -157,8 +157,9 @@ std::string key_in_its_place(CampaignPlant plant, std::string_view table, const 
   std::vector<std::string> used;
   for (const auto& known : belief_keys(plant))
     if (known.table == table && known.used) used.push_back(known.key);
-  return cure_for_unknown_key(key, std::nullopt, used) +
-         fmt::format(" Or leave it as it is ('hop campaign keys {}' lists the keys)", name_of(plant));
+  const auto cure = cure_for_unknown_key(key, std::nullopt, used);
+  return fmt::format("{}{} leave it as it is ('hop campaign keys {}' lists the keys)", cure,
+                     cure.ends_with('?') ? " Or" : ", or", name_of(plant));
 }
 
 std::string_view meaning_of_key(std::string_view path) {

@@ -89,8 +89,8 @@ class RateChecker {
     const auto all = slope_of(x, v, std::vector<bool>(ends.size(), false));
     if (std::ranges::count(ends, true) == 0) return all;
     const auto between = slope_of(x, v, ends);
-    const bool is_told_between = between && between->together > kCorrelates;
-    if (!is_told_between && all && all->together >= kOneRatio) return all;
+    const bool is_correlated_between = between && between->together > kCorrelates;
+    if (!is_correlated_between && all && all->together >= kOneRatio) return all;
     return between;
   }
 

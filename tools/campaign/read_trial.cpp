@@ -333,7 +333,7 @@ class Reader {
     table_ = {};
     if (rows.selects() && keep.size() < kFewestSelectedRows)
       complain_at(trial_.position, FindingKind::empty_file, trial_unusable,
-                  fmt::format("trial {}", trial_.entry), told_selection(rows, out_.t_s, keep, file_),
+                  fmt::format("trial {}", trial_.entry), selection_text(rows, out_.t_s, keep, file_),
                   "from_s and to_s are seconds, after unit, scale and offset of t_s: correct select in this "
                   "trial, or the unit of the time");
     if (!keep.empty() && keep.size() != out_.t_s.size()) keep_rows(out_, places_, keep);

@@ -30,7 +30,7 @@ std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vect
   return keep;
 }
 
-std::string told_selection(const RowSelection& rows, const std::vector<double>& t_s,
+std::string selection_text(const RowSelection& rows, const std::vector<double>& t_s,
                            const std::vector<std::size_t>& keep, std::string_view file) {
   if (t_s.empty()) return fmt::format("select leaves none of the rows: none was read from {}", file);
   const bool by_line = rows.from_line > 0 || rows.to_line < RowSelection{}.to_line;

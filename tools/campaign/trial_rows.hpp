@@ -20,7 +20,7 @@ std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vect
                                        const std::vector<double>* column);
 
 // "select leaves 4 of 2000 rows, from 0.2 to 0.206 s; 10 are needed, and a.csv goes from 0 to 3.998 s"
-std::string told_selection(const RowSelection& rows, const std::vector<double>& t_s,
+std::string selection_text(const RowSelection& rows, const std::vector<double>& t_s,
                            const std::vector<std::size_t>& keep, std::string_view file);
 
 // Adds a note about the time of a row.

@@ -47,7 +47,7 @@ nlohmann::ordered_json as_json(const Finding& f) {
 }
 
 nlohmann::ordered_json to_json(const UsedNumber& n) {
-  return {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"said_by", n.said_by}};
+  return {{"key", n.key}, {"low", n.low}, {"high", n.high}, {"unit", n.unit}, {"source", n.source_text}};
 }
 
 ExitCode check(Session& session, const Options& options) {
@@ -55,10 +55,10 @@ ExitCode check(Session& session, const Options& options) {
   sandhopper::diagnose::refuse_unknown_effects(campaign);
   std::size_t usable = 0;
   std::vector<Finding> found;
-  std::set<std::string> told;  // Trials may share a finding.
+  std::set<std::string> seen;  // Trials may share a finding.
   const auto add = [&](const std::vector<Finding>& more) {
     for (const auto& finding : more)
-      if (told.insert(to_string(finding)).second) found.push_back(finding);
+      if (seen.insert(to_string(finding)).second) found.push_back(finding);
   };
   add(campaign.findings);
   const auto missing = missing_numbers(campaign);

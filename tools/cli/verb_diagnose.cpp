@@ -74,7 +74,7 @@ std::optional<sandhopper::diagnose::FirstAnswer> first_answer(const std::filesys
 std::vector<sandhopper::diagnose::BelievedNumber> believed(const UsedNumbers& used) {
   std::vector<sandhopper::diagnose::BelievedNumber> numbers;
   for (const auto& n : used.numbers)
-    numbers.push_back({n.key, n.low, n.high, n.unit, n.said_by, usual_error(n), 0.0});
+    numbers.push_back({n.key, n.low, n.high, n.unit, n.source_text, usual_error(n), 0.0});
   return numbers;
 }
 

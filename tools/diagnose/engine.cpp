@@ -32,8 +32,8 @@ void report_what_is_left(const Problem& problem, const Unexplained& rest, Diagno
   if (rest.law) report_unknown(*rest.law, rest.share, diagnosis);
   if (!rest.unknown) return;
   if (!rest.law) report_unknown_near(rest.gap_closed, diagnosis);
-  if (diagnosis.effects.empty() && rest.loud) report_unknown_loud(*rest.loud, diagnosis);
-  if (diagnosis.effects.empty()) report_unknown_leaning(rest.lean, diagnosis);
+  if (diagnosis.effects.empty() && rest.noisy) report_unknown_noise(*rest.noisy, diagnosis);
+  if (diagnosis.effects.empty()) report_unknown_shift(rest.shift, diagnosis);
   if (std::ranges::none_of(diagnosis.effects, &FoundEffect::is_unknown))
     report_unknown_of_plant(problem, diagnosis);
 }

@@ -26,7 +26,7 @@ constexpr double kManyRows = 20'000.0;
 constexpr std::size_t kSetsTold = 20;
 constexpr std::size_t kMostEffects = 6;  // of a cheap plant whose best set leaves more than the noise
 constexpr std::size_t kScreenedTold = 15;
-constexpr std::size_t kLeansTold = 4;
+constexpr std::size_t kShiftsListed = 4;
 constexpr FitOptions kFirst{.max_iterations = 6};  // The noise is only a guess at this stage.
 constexpr FitOptions kHere{.columns_made_here = true};
 constexpr double kSameNoise = 0.03;  // Largest noise_change() after which the search is not repeated.
@@ -64,10 +64,10 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
                     problem.tolerances[i].name, search.null().fit.point.tolerances[i],
                     search.best().fit.point.tolerances[i]));
   for (const auto* fit : {&search.null(), &search.best()}) {
-    const auto leans = leans_of(problem, fit->fit.point);
-    for (std::size_t i = 0; i < leans.size() && i < kLeansTold; ++i)
+    const auto shifts = common_shifts(problem, fit->fit.point);
+    for (std::size_t i = 0; i < shifts.size() && i < kShiftsListed; ++i)
       diagnosis.log.push_back(fmt::format("beside {}: all trials need {} alike, by {:.1f} standard errors",
-                                          set_text(problem, fit->set), leans[i].nuisance, leans[i].z));
+                                          set_text(problem, fit->set), shifts[i].nuisance, shifts[i].z));
   }
   std::vector<const SetFit*> fits;
   for (const auto& [set, fit] : search.sets()) fits.push_back(&fit);
@@ -95,7 +95,7 @@ void log_sets(const Problem& problem, Search& search, Diagnosis& diagnosis) {
 bool leaves_more_than_noise(const Problem& problem, const Search& search) {
   return misfit_of(problem, search).large ||
          left_over_noise(problem, search.null().fit, search.best().fit).is_more_than_noise() ||
-         loudest_channel(problem);
+         noisiest_channel(problem);
 }
 
 bool has_many_trials(const Problem& problem) { return problem.trials.size() > kManyTrialsInAll; }

@@ -15,9 +15,9 @@ bool HoppedCycles::next(const std::function<void(SensorFrame&)>& change) {
   before_ = truth_;
   board_.read(frame_);
   truth_ = world_.truth();
-  told_ = frame_;
-  if (change) change(told_);
-  output_ = &controller_.step(told_);
+  reported_ = frame_;
+  if (change) change(reported_);
+  output_ = &controller_.step(reported_);
   board_.write(output_->command);
   for (const auto& event : controller_.events())
     if (event.kind == EventKind::armed) release_cycle_ = cycle_ + hang_cycles_;

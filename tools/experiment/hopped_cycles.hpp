@@ -21,7 +21,7 @@ class HoppedCycles {
   bool next(const std::function<void(SensorFrame&)>& change = {});
 
   const Controller& controller() const { return controller_; }
-  const SensorFrame& frame() const { return told_; }
+  const SensorFrame& frame() const { return reported_; }
   const StepOutput& output() const { return *output_; }
   const PlantTruth& truth() const { return truth_; }          // at the time of the cycle
   const PlantTruth& truth_before() const { return before_; }  // at the time of the newest motor reply
@@ -34,7 +34,7 @@ class HoppedCycles {
   World world_;
   SimBoard board_;
   Controller controller_;
-  SensorFrame frame_{}, told_{};
+  SensorFrame frame_{}, reported_{};
   const StepOutput* output_ = nullptr;
   PlantTruth truth_{}, before_{};
   Request request_ = Request::arm;

@@ -28,7 +28,7 @@ EmulatedBus::EmulatedBus(World& world, const CanConfig& drives, std::uint64_t se
                           .command =
                               [this, i](const MotorCommand& command, bool enabled) {
                                 auto& m = motor_[i];
-                                m.told = command;
+                                m.command = command;
                                 m.enabled = enabled;
                                 const double torque = enabled ? std::abs(command.torque_Nm) : 0.0;
                                 most_torque_Nm_ = std::max(most_torque_Nm_, torque);
@@ -64,7 +64,7 @@ void EmulatedBus::set(Device device, std::optional<Kind> kind) {
 }
 
 void EmulatedBus::take_power(std::size_t i) {
-  motor_[i].told = {};
+  motor_[i].command = {};
   motor_[i].enabled = false;
   world_.command(static_cast<Side>(i), {}, false);
 }

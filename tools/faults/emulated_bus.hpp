@@ -45,7 +45,7 @@ class EmulatedBus : public CanPort {
   void advance();
 
   // The last command that each drive received, in link coordinates.
-  const MotorCommand& told(Side side) const { return motor_[static_cast<std::size_t>(side)].told; }
+  const MotorCommand& command(Side side) const { return motor_[static_cast<std::size_t>(side)].command; }
   // True if the last frames put this drive into motor mode.
   bool enabled(Side side) const { return motor_[static_cast<std::size_t>(side)].enabled; }
   void reset_torque() { most_torque_Nm_ = 0.0; }
@@ -69,7 +69,7 @@ class EmulatedBus : public CanPort {
     std::int64_t since_ns = 0;
     MotorSample frozen{};
     int asked = 0;  // requests since the fault was planted
-    MotorCommand told{};
+    MotorCommand command{};
     bool enabled = false;
     bool dead = false;
   };

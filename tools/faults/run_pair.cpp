@@ -276,12 +276,12 @@ void PairTrial::judge_restart() {
 void PairTrial::judge_drives() {
   if (refusal_.empty() && result_.together == Fault::none) return;
   for (const auto side : {Side::left, Side::right}) {
-    const auto& told = rig_.board().bus().told(side);
-    const double gains = told.kp_Nm_per_rad + told.kd_Nm_s_per_rad;
-    if (std::abs(told.torque_Nm) > kNoTorque_Nm || gains > 0.01)
+    const auto& command = rig_.board().bus().command(side);
+    const double gains = command.kp_Nm_per_rad + command.kd_Nm_s_per_rad;
+    if (std::abs(command.torque_Nm) > kNoTorque_Nm || gains > 0.01)
       wrong(fmt::format("the {} drive was left with {:.2f} N m, kp {:.1f}, kd {:.2f}",
-                        side == Side::left ? "left" : "right", told.torque_Nm, told.kp_Nm_per_rad,
-                        told.kd_Nm_s_per_rad));
+                        side == Side::left ? "left" : "right", command.torque_Nm, command.kp_Nm_per_rad,
+                        command.kd_Nm_s_per_rad));
   }
 }
 

@@ -110,7 +110,7 @@ StudyTable group_table(const CurveGroup& group) {
           "Mean over trials and, in brackets, its 95 % interval. One new trial: 95 % interval of the "
           "next trial's force. Secant: force over depth. Tangent: slope of the curve at that "
           "depth. sd: standard deviation. –: one trial gives no interval."};
-  for (const double depth_m : told_depths_m(group)) {
+  for (const double depth_m : listed_depths_m(group)) {
     const auto& p = *group.at(depth_m);
     table.rows.push_back(
         {short_number(1e3 * depth_m), fmt::format("{}", p.force_N.trials), pooled_text(p.force_N),

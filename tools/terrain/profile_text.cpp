@@ -125,9 +125,9 @@ std::string group_title(const CurveGroup& group) {
                      mm_text(group.diameter_m), trials_text(group.curves.size()));
 }
 
-std::vector<double> told_depths_m(const CurveGroup& group) {
-  std::vector<double> told;
-  if (group.depths.empty()) return told;
+std::vector<double> listed_depths_m(const CurveGroup& group) {
+  std::vector<double> listed;
+  if (group.depths.empty()) return listed;
   constexpr std::array kSteps_m{0.001, 0.002, 0.005, 0.010, 0.020, 0.050, 0.100, 0.200, 0.500, 1.0};
   constexpr double kMost = 8.0;
   const double deepest_m = group.depths.back().depth_m;
@@ -135,8 +135,8 @@ std::vector<double> told_depths_m(const CurveGroup& group) {
   for (const double candidate_m : kSteps_m)
     if (deepest_m / candidate_m <= kMost) step_m = std::min(step_m, candidate_m);
   for (double depth_m = step_m; depth_m <= deepest_m + 1e-9; depth_m += step_m)
-    if (group.at(depth_m) != nullptr) told.push_back(depth_m);
-  return told;
+    if (group.at(depth_m) != nullptr) listed.push_back(depth_m);
+  return listed;
 }
 
 std::string pooled_text(const PooledValue& v, double scale) {
@@ -227,18 +227,18 @@ std::string bound_text(const CurveGroup& g) {
 }
 
 std::string profile_answer(const CurveGroup& g) {
-  const auto depths = told_depths_m(g);
+  const auto depths = listed_depths_m(g);
   if (depths.empty()) return bound_text(g);
-  const auto told = deepest_with_most_trials(g, depths);
-  const auto& force = g.at(told)->force_N;
+  const auto deepest_m = deepest_with_most_trials(g, depths);
+  const auto& force = g.at(deepest_m)->force_N;
   const auto foot = fmt::format("{} of {} mm", foot_word(g.source), mm_text(g.diameter_m));
   if (force.trials < 2)
     return fmt::format("At {} mm of depth the ground bears {} N ({}, one trial: others may differ).",
-                       mm_text(told), short_number(force.value), foot);
+                       mm_text(deepest_m), short_number(force.value), foot);
   return fmt::format(
       "At {} mm of depth the ground bears {} N, 95 % interval {} to {} N ({}, mean of {}); "
       "one new trial lies between {} and {} N with 95 %.",
-      mm_text(told), in_interval(force.value, force.mean_low, force.mean_high),
+      mm_text(deepest_m), in_interval(force.value, force.mean_low, force.mean_high),
       in_interval(force.mean_low, force.mean_low, force.mean_high),
       in_interval(force.mean_high, force.mean_low, force.mean_high), foot, trials_text(force.trials),
       in_interval(force.new_low, force.new_low, force.new_high),
@@ -255,7 +255,7 @@ std::vector<std::string> profile_lines(const ProfileConclusion& conclusion) {
     }
     lines.push_back(fmt::format("  {:>9}  {:>26}  {:>18}  {:>26}  {:>6}", "depth",
                                 "force, mean of the ground", "one new trial", "secant", "trials"));
-    for (const double depth_m : told_depths_m(g)) lines.push_back(table_line(*g.at(depth_m)));
+    for (const double depth_m : listed_depths_m(g)) lines.push_back(table_line(*g.at(depth_m)));
     if (const auto text = numbers_text(g); !text.empty()) lines.push_back("  " + text);
     lines.push_back("  " + shapes_text(g));
     if (const auto text = left_out_text(g); !text.empty()) lines.push_back("  " + text);

@@ -10,7 +10,7 @@ namespace sandhopper {
 std::string short_number(double value);            // three significant digits, whole numbers from 1000 on
 std::string group_title(const CurveGroup& group);  // "plates of 60 mm pressed slowly, 3 trials"
 // Round depths over the visited range, at most eight, for the text.
-std::vector<double> told_depths_m(const CurveGroup& group);
+std::vector<double> listed_depths_m(const CurveGroup& group);
 std::string pooled_text(const PooledValue& value, double scale = 1.0);  // "31.2 [28.1, 34.3]"
 std::string new_trial_text(const PooledValue& value, double scale = 1.0);
 std::string numbers_text(const CurveGroup& group);  // slope, line, secant and exponent in one sentence

@@ -236,12 +236,12 @@ PlateReport report_plate(const Plate& plate) {
 }  // namespace
 
 CampaignConclusions conclude_strokes(Results results) {
-  CampaignConclusions told;
+  CampaignConclusions conclusions;
   const auto plates = plates_of(results);
   // Slow presses alone are evaluated by the depth law.
   const bool fast = std::any_of(plates.begin(), plates.end(),
                                 [](const Plate& plate) { return plate.fastest_mps > kInertialSpeed_mps; });
-  if (!fast) return told;
+  if (!fast) return conclusions;
   StudySection section{.title = "Depth, speed and acceleration"};
   StudyTable table{
       .title = "All strokes of a plate together",
@@ -258,23 +258,23 @@ CampaignConclusions conclude_strokes(Results results) {
     const auto facts = result->series.find("stroke");
     return facts != result->series.end() && facts->second.at(3) > 0.0;
   });
-  told.json["speed_from_camera_and_accelerometer"] = fused;
+  conclusions.json["speed_from_camera_and_accelerometer"] = fused;
   if (fused > 0)
     section.items.emplace_back(
         fmt::format("In {} strokes the speed was not recorded: it comes from depth and acceleration "
                     "together (Kalman filter and Rauch-Tung-Striebel smoother).",
                     fused));
-  auto& list = told.json["plates"] = Json::array();
+  auto& list = conclusions.json["plates"] = Json::array();
   for (const auto& plate : plates) {
     auto report = report_plate(plate);
     table.rows.push_back(report.row);
     std::move(report.figures.begin(), report.figures.end(), std::back_inserter(figures));
     if (!plate.tells_drag())
-      told.lines.push_back(fmt::format(
+      conclusions.lines.push_back(fmt::format(
           "Strokes with the {:.0f} mm plate, {} trials: slope of a straight line {} N/m; {}.",
           1e3 * plate.diameter_m, plate.trials.size(), mean_text(any_slope(plate)), plate.why_no_drag()));
     else
-      told.lines.push_back(fmt::format(
+      conclusions.lines.push_back(fmt::format(
           "Strokes with the {:.0f} mm plate, {} trials: stiffness {} N/m, drag at the surface {} kg/m, added "
           "mass at 30 mm {} kg.",
           1e3 * plate.diameter_m, plate.trials.size(), report.row[3], report.row[5], report.row[6]));
@@ -285,16 +285,17 @@ CampaignConclusions conclude_strokes(Results results) {
         fmt::format("stiffness grows with the plate's area to the power {} ({}; {} strokes)",
                     value_text(law.exponent, law.exponent - law.half_width, law.exponent + law.half_width),
                     interval_text(law.exponent - law.half_width, law.exponent + law.half_width), law.trials);
-    told.lines.push_back("  " + text);
-    told.json["area_exponent"] = {{"value", law.exponent},
-                                  {"ci95", {law.exponent - law.half_width, law.exponent + law.half_width}},
-                                  {"trials", law.trials}};
+    conclusions.lines.push_back("  " + text);
+    conclusions.json["area_exponent"] = {
+        {"value", law.exponent},
+        {"ci95", {law.exponent - law.half_width, law.exponent + law.half_width}},
+        {"trials", law.trials}};
     section.items.emplace_back("Over all plates the " + text + ".");
   }
   section.items.emplace_back(std::move(table));
   for (auto& figure : figures) section.items.emplace_back(std::move(figure));
-  told.sections.push_back(std::move(section));
-  return told;
+  conclusions.sections.push_back(std::move(section));
+  return conclusions;
 }
 
 }  // namespace sandhopper

@@ -20,7 +20,7 @@ void BenchWorld::reset(const TrialSetup& setup) {
   start_ns_ = start_ns;
   setup_ = setup;
   for (std::size_t i = 0; i < kMotorCount; ++i)
-    world_->command(static_cast<Side>(i), told_[i].command, told_[i].enabled);
+    world_->command(static_cast<Side>(i), commands_[i].command, commands_[i].enabled);
   if (on_reset) on_reset();
   wake_at_next_completion();
 }
@@ -31,7 +31,7 @@ World& BenchWorld::now() {
 }
 
 void BenchWorld::command(Side side, const MotorCommand& command, bool enabled) {
-  told_[static_cast<std::size_t>(side)] = {command, enabled};
+  commands_[static_cast<std::size_t>(side)] = {command, enabled};
   now().command(side, command, enabled);
 }
 

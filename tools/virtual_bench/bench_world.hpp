@@ -60,7 +60,7 @@ class BenchWorld {
   WorldConfig config_;
   TrialSetup setup_;
   std::unique_ptr<World> world_;
-  std::array<Told, kMotorCount> told_{};
+  std::array<Told, kMotorCount> commands_{};
   std::int64_t start_ns_ = 0;
 };
 

@@ -77,7 +77,7 @@ struct ErrorBeforeAfter {
 struct SensorNoise {
   std::string channel;
   double stated = 0.0;     // by the belief; 0: not stated
-  std::string said_by{};   // source of the stated value: a file and line, or a default
+  std::string source{};    // source of the stated value: a file and line, or a default
   double measured = 0.0;   // from the fast fluctuation, from sample to sample
   double used = 0.0;       // by the fit: what the residuals show beside what was found, without model error
   bool is_raised = false;  // `used` is more than the sensor's own noise
@@ -151,7 +151,7 @@ struct BelievedNumber {
   double low = 0.0, high = 0.0;  // Smallest and largest value over the trials.
   std::string unit{};
   // Source: a file and line, a set-up, or a default with its reason.
-  std::string said_by{};
+  std::string source{};
   // Error to be expected from how the number is written: half a unit of its last digit. For a default that
   // nobody stated: its full size.
   double usual_error = 0.0;
@@ -226,7 +226,7 @@ struct TrialToTrial {
   bool is_default = false;            // nobody stated the spread
   // Nobody stated the spread, and its mean over the trials is not zero (Student's t, 1 %, Bonferroni over
   // such spreads): it stands for something that all trials share. Never where `Nuisance::is_own`.
-  bool leans_alike = false;
+  bool shifts_alike = false;
   std::string goes_with{};  // "falls with plate_diameter_m"; empty: the values are in no such order
 
   bool exceeds_before() const;  // in any trial

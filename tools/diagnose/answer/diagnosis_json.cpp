@@ -72,7 +72,7 @@ Json fit_json(const ChannelFit& f) {
 
 Json noise_json(const SensorNoise& n) {
   return {{"channel", n.channel},  {"stated", n.stated > 0.0 ? Json(n.stated) : Json(nullptr)},
-          {"said_by", n.said_by},  {"from_sample_to_sample", n.measured},
+          {"source", n.source},    {"from_sample_to_sample", n.measured},
           {"used", n.used},        {"times", n.times()},
           {"raised", n.is_raised}, {"meaning", n.is_raised ? Json(n.in_words()) : Json(nullptr)}};
 }
@@ -131,7 +131,7 @@ Json belief_json(const BelievedNumber& n) {
           {"low", n.low},
           {"high", n.high},
           {"unit", n.unit},
-          {"said_by", n.said_by},
+          {"source", n.source},
           {"usual_error", n.usual_error},
           {"error_that_shows", std::isfinite(n.error_that_shows) && n.error_that_shows > 0.0
                                    ? Json(n.error_that_shows)

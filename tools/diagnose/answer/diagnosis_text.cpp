@@ -100,7 +100,7 @@ bool explains_little(const Diagnosis& d) {
 }
 
 // True if the headline holds remainder_text().
-bool told_in_headline(const Diagnosis& d) { return d.first && d.verdict == Verdict::unknown_physics; }
+bool is_in_headline(const Diagnosis& d) { return d.first && d.verdict == Verdict::unknown_physics; }
 
 }  // namespace
 
@@ -158,7 +158,7 @@ std::string SensorNoise::in_words() const {
   if (stated > 0.0)
     text += fmt::format(
         ", {} times the {} stated{}. From sample to sample it scatters by {}: ", two_digits(times()),
-        in_unit(stated, unit), said_by.empty() ? "" : " (" + said_by + ")", in_unit(measured, unit));
+        in_unit(stated, unit), source.empty() ? "" : " (" + source + ")", in_unit(measured, unit));
   else
     text += fmt::format(", {} times the {} by which it scatters from sample to sample: ", two_digits(times()),
                         in_unit(measured, unit));
@@ -263,7 +263,7 @@ std::string to_text(const Diagnosis& d) {
   for (std::size_t i = 0; i < d.where.size() && i < kMostCells; ++i) text += where_text(d.where[i]);
   for (std::size_t i = 0; i < d.fits.size() && i < kMostChannels; ++i)
     text += error_text(d.fits[i], !d.effects.empty());
-  if (const auto left = remainder_text(d); !left.empty() && !told_in_headline(d))
+  if (const auto left = remainder_text(d); !left.empty() && !is_in_headline(d))
     text += "left   " + left + "\n";
   if (const auto below = below_the_floor(d); !below.empty()) text += "       " + below + "\n";
   if (const auto before = taken_up_before(d); !before.empty()) text += "       " + before + "\n";

@@ -100,7 +100,7 @@ void report_noise(const Problem& problem, Diagnosis& diagnosis) {
                       .measured = problem.floor_sd[c],
                       .used = problem.noise.channel(c).sd()};
     for (const auto& number : diagnosis.belief)
-      if (noise.stated > 0.0 && number.key == noise_key(channel)) noise.said_by = number.said_by;
+      if (noise.stated > 0.0 && number.key == noise_key(channel)) noise.source = number.source;
     noise.is_raised = noise.used > kQuietChannel * std::max(noise.stated, noise.measured) ||
                       (noise.stated > 0.0 && noise.times() > kQuietChannel);
     noise.is_sensor_worse = noise.stated > 0.0 && noise.measured > kQuietChannel * noise.stated;

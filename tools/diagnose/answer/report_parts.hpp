@@ -30,8 +30,8 @@ void report_unknown(const FreeGain& gain, double share, Diagnosis& diagnosis);
 void report_unknown_near(double gap_closed, Diagnosis& diagnosis);
 // For a diagnosis without effects: adds an unknown effect at the port of the noisy channel, or of the common
 // nuisance offset.
-void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis);
-void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis);
+void report_unknown_noise(const NoisyChannel& noisy, Diagnosis& diagnosis);
+void report_unknown_shift(const CommonShift& shift, Diagnosis& diagnosis);
 // For a plant with a single port: adds an unknown effect there, unless a sensor is noisy in a phase without
 // forces.
 void report_unknown_of_plant(const Problem& problem, Diagnosis& diagnosis);

@@ -95,28 +95,28 @@ void report_unknown_near(double gap_closed, Diagnosis& diagnosis) {
   diagnosis.effects.push_back(std::move(effect));
 }
 
-void report_unknown_loud(const LoudChannel& loud, Diagnosis& diagnosis) {
+void report_unknown_noise(const NoisyChannel& noisy, Diagnosis& diagnosis) {
   diagnosis.effects.push_back(
-      {.id = "unknown@" + loud.port,
-       .port = loud.port,
+      {.id = "unknown@" + noisy.port,
+       .port = noisy.port,
        .statement = fmt::format(
            "Something unlisted acts at {}: {} scatters {:.1f} times as much as the believed noise of "
            "its sensor.",
-           loud.port, loud.channel, loud.times),
+           noisy.port, noisy.channel, noisy.times),
        .equation = "not known",
        .parameters = {},
        .mass = kLikelierThanNot});
 }
 
-void report_unknown_leaning(const Lean& lean, Diagnosis& diagnosis) {
-  if (lean.port.empty()) return;
+void report_unknown_shift(const CommonShift& shift, Diagnosis& diagnosis) {
+  if (shift.port.empty()) return;
   diagnosis.effects.push_back(
-      {.id = "unknown@" + lean.port,
-       .port = lean.port,
+      {.id = "unknown@" + shift.port,
+       .port = shift.port,
        .statement =
            fmt::format("Something unlisted acts at {}: {}, which should scatter from trial to trial, is "
                        "shifted alike in all, by {:.1f} standard errors.",
-                       lean.port, lean.nuisance, std::abs(lean.z)),
+                       shift.port, shift.nuisance, std::abs(shift.z)),
        .equation = "not known",
        .parameters = {},
        .mass = kLikelierThanNot});

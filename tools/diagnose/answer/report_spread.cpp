@@ -96,13 +96,13 @@ std::string order_in_words(const std::vector<SpreadValue>& values, const std::ve
 }
 
 // Marks the values that the believed spreads do not allow.
-void mark_what_exceeds(const Belief& belief, std::vector<TrialToTrial>& told) {
+void mark_what_exceeds(const Belief& belief, std::vector<TrialToTrial>& entries) {
   double tests = 0.0;
-  for (const auto& nuisance : told)
+  for (const auto& nuisance : entries)
     if (stated_spread(belief, nuisance.name) > 0.0) tests += static_cast<double>(nuisance.values.size());
   if (tests == 0.0) return;
   const double most = normal_quantile(kSignificance / tests);
-  for (auto& nuisance : told) {
+  for (auto& nuisance : entries) {
     if (stated_spread(belief, nuisance.name) <= 0.0) continue;
     for (auto& value : nuisance.values) {
       value.exceeds_before = std::abs(value.before) > most * nuisance.believed_sd;
@@ -118,16 +118,16 @@ double believed_sd(const Problem& problem, const Nuisance& nuisance) {
 }
 
 // True if a mean that is not zero says something of the rig.
-bool may_lean(const Nuisance& nuisance) { return nuisance.may_lean && !nuisance.is_own; }
+bool shift_is_evidence(const Nuisance& nuisance) { return nuisance.shift_is_evidence && !nuisance.is_own; }
 
 // Marks the unstated spreads whose mean is not zero; Bonferroni over them.
-void mark_what_leans(std::vector<TrialToTrial>& told) {
-  const auto tests = static_cast<double>(std::ranges::count_if(told, &TrialToTrial::leans_alike));
-  for (auto& nuisance : told) {
+void mark_common_shifts(std::vector<TrialToTrial>& entries) {
+  const auto tests = static_cast<double>(std::ranges::count_if(entries, &TrialToTrial::shifts_alike));
+  for (auto& nuisance : entries) {
     const auto n = static_cast<double>(nuisance.values.size());
     const double error = nuisance.sd_after / std::sqrt(n);
-    nuisance.leans_alike = nuisance.leans_alike && nuisance.values.size() >= kTooFewTrials && error > 0.0 &&
-                           student_t_two_sided(nuisance.mean_after / error, n - 1.0) < kSignificance / tests;
+    nuisance.shifts_alike = nuisance.shifts_alike && nuisance.values.size() >= kTooFewTrials && error > 0.0 &&
+                            student_t_two_sided(nuisance.mean_after / error, n - 1.0) < kSignificance / tests;
   }
 }
 
@@ -137,34 +137,34 @@ void report_trial_to_trial(const Problem& problem, const Search& search, const s
                            Diagnosis& diagnosis) {
   const auto &null = search.null().fit.point.nuisances, &best = search.best().fit.point.nuisances;
   for (const auto& name : names_of_nuisances(problem)) {
-    TrialToTrial told;
-    told.name = name;
+    TrialToTrial entry;
+    entry.name = name;
     std::vector<double> before, after;
     for (std::size_t t = 0; t < problem.trials.size(); ++t) {
       const auto i = index_of(*problem.trials[t], name);
       if (!i) continue;
       const Nuisance& nuisance = problem.trials[t]->trial_nuisances[*i];
-      told.believed_sd = believed_sd(problem, nuisance);
-      told.leans_alike = may_lean(nuisance);
+      entry.believed_sd = believed_sd(problem, nuisance);
+      entry.shifts_alike = shift_is_evidence(nuisance);
       before.push_back(null[t][*i]);
       after.push_back(best[t][*i]);
-      told.values.push_back({problem.trials[t]->name, before.back(), after.back()});
+      entry.values.push_back({problem.trials[t]->name, before.back(), after.back()});
     }
-    if (told.values.size() < 2) continue;
-    std::tie(told.mean_before, told.sd_before) = mean_and_sd(before);
-    std::tie(told.mean_after, told.sd_after) = mean_and_sd(after);
-    told.is_default = stated_spread(problem.context.belief, name) <= 0.0;
+    if (entry.values.size() < 2) continue;
+    std::tie(entry.mean_before, entry.sd_before) = mean_and_sd(before);
+    std::tie(entry.mean_after, entry.sd_after) = mean_and_sd(after);
+    entry.is_default = stated_spread(problem.context.belief, name) <= 0.0;
     for (const auto& number : diagnosis.belief)
-      if (number.key == "spread." + name) told.is_default = number.said_by.starts_with("default");
-    told.leans_alike = told.leans_alike && told.is_default;
-    diagnosis.trial_to_trial.push_back(std::move(told));
+      if (number.key == "spread." + name) entry.is_default = number.source.starts_with("default");
+    entry.shifts_alike = entry.shifts_alike && entry.is_default;
+    diagnosis.trial_to_trial.push_back(std::move(entry));
   }
   mark_what_exceeds(problem.context.belief, diagnosis.trial_to_trial);
-  mark_what_leans(diagnosis.trial_to_trial);
-  for (auto& told : diagnosis.trial_to_trial) {
-    if (told.exceeds_after())
-      told.goes_with = order_in_words(told.values, recorded);
-    else if (!told.leans_alike)
+  mark_common_shifts(diagnosis.trial_to_trial);
+  for (auto& entry : diagnosis.trial_to_trial) {
+    if (entry.exceeds_after())
+      entry.goes_with = order_in_words(entry.values, recorded);
+    else if (!entry.shifts_alike)
       continue;
     if (diagnosis.verdict == Verdict::consistent) diagnosis.detail = Detail::only_beyond_spread;
   }

@@ -76,7 +76,7 @@ class Cell {
   double gap(std::size_t t, std::size_t k) const { return gap_.of[t][static_cast<Index>(k)]; }
 
   bool is_empty() const { return evidence_.score.empty(); }
-  bool is_louder_than_noise() const { return !where_.trials.empty(); }
+  bool exceeds_noise() const { return !where_.trials.empty(); }
   double energy() const { return energy_; }
   double p_value() const { return evidence_.size() > 0.0 ? 0.5 * evidence_.p_value() : 1.0; }
   Where& where() { return where_; }
@@ -205,7 +205,7 @@ void report_where(const Problem& problem, const Search& search, const Residuals&
   }
   const auto seen = rejected_at_false_discovery_rate(p_values, kLevel);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!seen[i] || !cells[i].is_louder_than_noise()) continue;
+    if (!seen[i] || !cells[i].exceeds_noise()) continue;
     place_on_axis(problem, cells[i]);
     Where& where = cells[i].where();
     where.port = port_in_cell(problem, search, residuals, cells[i], diagnosis);

@@ -66,7 +66,7 @@ std::string subject_of(const TrialToTrial& n) {
 std::string beyond_spread(const Diagnosis& d) {
   std::string text;
   for (const auto& n : d.trial_to_trial)
-    if (n.exceeds_after() || n.leans_alike)
+    if (n.exceeds_after() || n.shifts_alike)
       text += (text.empty() ? "" : "; and if ") + (n.exceeds_after() ? beyond(n) : alike(n));
   return text;
 }

@@ -11,7 +11,8 @@ std::string amount_in_words(const TrialToTrial& nuisance, double value);
 // "stiffness_per_area"
 std::string subject_of(const TrialToTrial& nuisance);
 // "stiffness_per_area differs by -20 % in Versuch_05, 5.2 times the stated 3.8 %, ..."; empty: the values
-// beside what was found lie within the believed spreads, and none that nobody stated leans to one side.
+// beside what was found lie within the believed spreads, and none that nobody stated has a mean other than
+// zero.
 std::string beyond_spread(const Diagnosis& diagnosis);
 // The consequence of that, as a sentence.
 std::string otherwise(const Diagnosis& diagnosis);

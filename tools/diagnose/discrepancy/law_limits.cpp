@@ -31,7 +31,7 @@ constexpr double kOutdone = 1.3;
 constexpr double kLeastPerRow = 0.75;
 // Limits of |z| of a common nuisance offset: beside named effects (at most 3.3 with the right ones), and
 // without any (at most 2.9 with nothing missing).
-constexpr double kLeansBeside = 4.5, kLeansAlone = 6.0;
+constexpr double kShiftBesideNames = 4.5, kShiftAlone = 6.0;
 
 }  // namespace
 
@@ -75,8 +75,8 @@ bool is_beyond_form(const FreeGain& gain, double share, double rows) {
          gain.held_out > kUnmistakablePerRow * rows;
 }
 
-bool is_unknown_lean(double z, bool beside_names) {
-  return std::abs(z) > (beside_names ? kLeansBeside : kLeansAlone);
+bool is_unknown_shift(double z, bool beside_names) {
+  return std::abs(z) > (beside_names ? kShiftBesideNames : kShiftAlone);
 }
 
 }  // namespace sandhopper::diagnose

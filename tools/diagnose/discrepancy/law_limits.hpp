@@ -37,7 +37,7 @@ bool may_be_outdone(const BestNames& best);
 // explain, or per row.
 bool is_beyond_form(const FreeGain& gain, double share, double rows);
 
-// True if a nuisance's mean over the trials is an effect that is missing. `z`: of largest_lean().
-bool is_unknown_lean(double z, bool beside_names);
+// True if a nuisance's mean over the trials is an effect that is missing. `z`: of largest_common_shift().
+bool is_unknown_shift(double z, bool beside_names);
 
 }  // namespace sandhopper::diagnose

@@ -13,7 +13,7 @@ namespace sandhopper::diagnose {
 namespace {
 
 // Largest number of trials counted in z.
-constexpr double kTrialsThatLean = 12.0;
+constexpr double kMostTrials = 12.0;
 
 }  // namespace
 
@@ -86,12 +86,12 @@ LeftOver left_over_noise(const Problem& problem, const Fit& without, const Fit& 
   return after.empty() ? LeftOver{} : LeftOver{before[most], after[most]};
 }
 
-std::optional<LoudChannel> loudest_channel(const Problem& problem) {
-  // `kLoud`: ratio above which a channel is reported.
+std::optional<NoisyChannel> noisiest_channel(const Problem& problem) {
+  // `kNoisy`: ratio above which a channel is reported.
   // `kSmooth`: innovation / total standard deviation of an acceleration that changes slowly.
-  constexpr double kLoud = 4.5, kSmooth = 0.6;
-  std::optional<LoudChannel> loudest;
-  std::size_t loud_index = 0;
+  constexpr double kNoisy = 4.5, kSmooth = 0.6;
+  std::optional<NoisyChannel> noisiest;
+  std::size_t noisy_index = 0;
   std::vector<double> times(problem.channels.size(), 0.0), own(problem.channels.size(), 0.0);
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const auto& channel = problem.channels[c];
@@ -99,42 +99,42 @@ std::optional<LoudChannel> loudest_channel(const Problem& problem) {
     if (believed <= 0.0 || !problem.context.channels.contains(channel)) continue;
     own[c] = std::max(believed, problem.floor_sd[c]);
     times[c] = problem.noise.channel(c).sd() / own[c];
-    if (times[c] > (loudest ? loudest->times : kLoud)) {
-      loudest = LoudChannel{channel, times[c], channel};
-      loud_index = c;
+    if (times[c] > (noisiest ? noisiest->times : kNoisy)) {
+      noisiest = NoisyChannel{channel, times[c], channel};
+      noisy_index = c;
     }
   }
-  if (!loudest) return std::nullopt;
-  const auto& by_phase = problem.noise.channel(loud_index).sd_of_phase;
+  if (!noisiest) return std::nullopt;
+  const auto& by_phase = problem.noise.channel(noisy_index).sd_of_phase;
   const auto quiet_phase = problem.plant->quiet_phase();
   // The sensor alone is noisy if it is noisy in a phase without forces, or if the other channels show
   // nothing.
-  bool sensor_alone = quiet_phase && by_phase[*quiet_phase] > kLoud * own[loud_index];
+  bool sensor_alone = quiet_phase && by_phase[*quiet_phase] > kNoisy * own[noisy_index];
   // A real acceleration changes slowly from sample to sample; a sensor's noise does not. Heights hardly show
   // a short disturbance, so they cannot rule out a force.
   const auto is_smooth = [&] {
-    const auto& of_phase = problem.noise.channel(loud_index).correlation_of_phase;
+    const auto& of_phase = problem.noise.channel(noisy_index).correlation_of_phase;
     return std::ranges::all_of(of_phase, [](const Autoregression& a) { return a.innovation_sd < kSmooth; });
   };
-  const bool accelerates = loudest->channel.find("accel") != std::string::npos && is_smooth();
+  const bool accelerates = noisiest->channel.find("accel") != std::string::npos && is_smooth();
   if (!quiet_phase && !accelerates) {
-    times.erase(times.begin() + static_cast<std::ptrdiff_t>(loud_index));
+    times.erase(times.begin() + static_cast<std::ptrdiff_t>(noisy_index));
     std::erase(times, 0.0);  // Drop channels without a stated noise.
     sensor_alone = !times.empty() && std::ranges::all_of(times, [](double t) { return t < kQuietChannel; });
   }
   const auto ports = problem.plant->free_ports(problem.context);
   if (!sensor_alone && !ports.empty())
-    loudest->port = ports.front().port.substr(0, ports.front().port.find('.'));
-  return loudest;
+    noisiest->port = ports.front().port.substr(0, ports.front().port.find('.'));
+  return noisiest;
 }
 
-std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
-  std::vector<Lean> leans;
-  if (problem.trials.empty()) return leans;
+std::vector<CommonShift> common_shifts(const Problem& problem, const Point& point) {
+  std::vector<CommonShift> shifts;
+  if (problem.trials.empty()) return shifts;
   const auto trials = static_cast<double>(problem.trials.size());
   const auto& names = problem.trials.front()->trial_nuisances;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!names[i].may_lean) continue;
+    if (!names[i].shift_is_evidence) continue;
     double sum = 0.0;
     bool everywhere = true;
     for (std::size_t t = 0; t < problem.trials.size() && everywhere; ++t) {
@@ -143,16 +143,17 @@ std::vector<Lean> leans_of(const Problem& problem, const Point& point) {
       if (everywhere) sum += point.nuisances[t][i] / own[i].sd;
     }
     if (everywhere)
-      leans.push_back(
-          {names[i].name, names[i].port, sum / trials * std::sqrt(std::min(trials, kTrialsThatLean))});
+      shifts.push_back(
+          {names[i].name, names[i].port, sum / trials * std::sqrt(std::min(trials, kMostTrials))});
   }
-  std::ranges::sort(leans, [](const Lean& a, const Lean& b) { return std::abs(a.z) > std::abs(b.z); });
-  return leans;
+  std::ranges::sort(shifts,
+                    [](const CommonShift& a, const CommonShift& b) { return std::abs(a.z) > std::abs(b.z); });
+  return shifts;
 }
 
-Lean largest_lean(const Problem& problem, const Point& point) {
-  const auto leans = leans_of(problem, point);
-  return leans.empty() ? Lean{} : leans.front();
+CommonShift largest_common_shift(const Problem& problem, const Point& point) {
+  const auto shifts = common_shifts(problem, point);
+  return shifts.empty() ? CommonShift{} : shifts.front();
 }
 
 double noise_change(const NoiseModel& before, const NoiseModel& now) {

@@ -11,7 +11,7 @@
 namespace sandhopper::diagnose {
 
 // Ratio of a channel's fitted noise to the sensor's own noise below which it is no sign of missing physics.
-// Set by hand; with nothing missing at most 1.45 (see loudest_channel).
+// Set by hand; with nothing missing at most 1.45 (see noisiest_channel).
 inline constexpr double kQuietChannel = 1.3;
 
 // Key of nominal.toml that states the channel's noise; empty if there is none.
@@ -40,7 +40,7 @@ LeftOver left_over_noise(const Problem& problem, const Fit& without, const Fit& 
 
 // A channel whose fitted noise far exceeds the stated noise of its sensor. A disturbance that does not repeat
 // in time, depth or speed is fitted as noise.
-struct LoudChannel {
+struct NoisyChannel {
   std::string channel;
   double times = 1.0;  // ratio to the sensor's own noise
   std::string port;    // The channel if only its sensor is noisy, else the plant's first port.
@@ -48,19 +48,19 @@ struct LoudChannel {
 // The channel with the largest ratio, among those with a stated noise; empty if none exceeds the limit of
 // 4.5. Ratios measured with nothing missing or with the right names: at most 1.45 with two other programs, up
 // to 3.2 with heights that drift. With hum or ringing: at least 5.6.
-std::optional<LoudChannel> loudest_channel(const Problem& problem);
+std::optional<NoisyChannel> noisiest_channel(const Problem& problem);
 
 // Mean offset of a nuisance parameter over all trials.
-struct Lean {
+struct CommonShift {
   std::string nuisance, port;
   double z = 0.0;  // mean(value / sd) * sqrt(min(trials, 12))
 };
 // Offsets of all nuisance parameters, largest |z| first. A nuisance should scatter around its prior mean. If
 // all trials move it the same way, an effect is missing, and the deviance does not show it. The number of
 // trials counts as at most 12: with 100 trials even the error of a simulation would be significant.
-std::vector<Lean> leans_of(const Problem& problem, const Point& point);
+std::vector<CommonShift> common_shifts(const Problem& problem, const Point& point);
 // The offset with the largest |z|; z = 0 if there is none.
-Lean largest_lean(const Problem& problem, const Point& point);
+CommonShift largest_common_shift(const Problem& problem, const Point& point);
 
 // RMS difference of two noise models: logarithms of the standard deviation and of the innovation's standard
 // deviation, weighted by samples.

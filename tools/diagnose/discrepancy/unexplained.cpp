@@ -146,21 +146,22 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
   // that all trials move alike.
   const LeftOver over = left_over_noise(problem, search.null().fit, best.fit);
   out.left = over.after;
-  if (problem.plant->says_how_trials_differ(belief)) out.lean = largest_lean(problem, best.fit.point);
-  out.leans = is_unknown_lean(out.lean.z, !best.set.empty());
+  if (problem.plant->says_how_trials_differ(belief))
+    out.shift = largest_common_shift(problem, best.fit.point);
+  out.shift_is_unknown = is_unknown_shift(out.shift.z, !best.set.empty());
   // Not for costly plants: a hopper's accelerometers vibrate with the structure, and no belief states that
   // noise well.
-  if (!problem.plant->is_costly()) out.loud = loudest_channel(problem);
-  if (out.loud)
-    log.push_back(fmt::format("noisy channel: {}, {:.2f} times its sensor's noise", out.loud->channel,
-                              out.loud->times));
+  if (!problem.plant->is_costly()) out.noisy = noisiest_channel(problem);
+  if (out.noisy)
+    log.push_back(fmt::format("noisy channel: {}, {:.2f} times its sensor's noise", out.noisy->channel,
+                              out.noisy->times));
   log.push_back(fmt::format("left: {:.2f} times the noise; largest shift alike in all trials: z = {:.1f} {}",
-                            out.left, out.lean.z, out.lean.nuisance));
-  const bool more_than_noise = !faults && (over.is_more_than_noise() || out.leans || out.loud);
+                            out.left, out.shift.z, out.shift.nuisance));
+  const bool more_than_noise = !faults && (over.is_more_than_noise() || out.shift_is_unknown || out.noisy);
   if (more_than_noise && best.set.empty() && !out.law)
     out.law = first_of(beside, [&](const FreeGain& gain) {
       return !gain.family.sensor && is_more(gain) &&
-             (over.is_more_than_noise() || gain.family.port.starts_with(out.lean.port));
+             (over.is_more_than_noise() || gain.family.port.starts_with(out.shift.port));
     });
 
   const auto share = [&] {
@@ -178,9 +179,10 @@ Unexplained unexplained_by(Problem& problem, const Search& search, const Belief&
                                ? explained * over.share() / (1.0 - over.share())
                                : (out.left * out.left - 1.0) * rows;
   if (out.unknown)
-    left = std::max({left, out.misfit.unexplained, of_excess, out.leans ? out.lean.z * out.lean.z : 0.0,
+    left = std::max({left, out.misfit.unexplained, of_excess,
+                     out.shift_is_unknown ? out.shift.z * out.shift.z : 0.0,
                      // The part of the estimated noise that is not the sensor's own.
-                     out.loud ? (1.0 - std::pow(out.loud->times, -2)) * rows : 0.0});
+                     out.noisy ? (1.0 - std::pow(out.noisy->times, -2)) * rows : 0.0});
   out.gap_closed = best.set.empty() || explained <= 0.0 ? 0.0 : explained / (explained + std::max(0.0, left));
   // If a free law alone explains more on held-out trials than the names and a law together, the names are
   // wrong.

@@ -33,9 +33,9 @@ struct Unexplained {
   std::optional<FreeGain> law;  // Explains most of the residual on held-out trials.
   double share = 0.0;           // Fraction of the explainable deviance that the law explains.
   double left = 0.0;            // residual RMS / noise RMS
-  Lean lean;
-  bool leans = false;
-  std::optional<LoudChannel> loud;
+  CommonShift shift;
+  bool shift_is_unknown = false;
+  std::optional<NoisyChannel> noisy;
   bool unknown = false;     // Unlisted physics is present.
   double gap_closed = 1.0;  // By named effects: explained / (explained + left), deviances.
 

@@ -34,7 +34,7 @@ bool comes_true(const Fit& without, const Fit& with, double linear_gain);
 bool is_mostly_true(double drop, double linear_gain);
 
 // True if the nuisance parameters have absorbed something that is missing: the deviance stays far above the
-// noise, or all trials lean alike. `z`: of largest_lean().
+// noise, or all trials shift one nuisance alike. `z`: of largest_common_shift().
 bool have_absorbed(double deviance, double rows, double z);
 // True if an effect removes most of an offset that a nuisance had in all trials.
 bool removes_offset(double z_without, double z_with);

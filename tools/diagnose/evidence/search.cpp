@@ -201,13 +201,14 @@ void Search::fit_straight(const SetFit& from, const Point& start, const std::vec
 }
 
 // True if the nuisance parameters have absorbed something that is missing.
-bool Search::is_bent(const Fit& fit) const {
-  return have_absorbed(fit.deviance, problem_->rows(), largest_lean(*problem_, fit.point).z);
+bool Search::nuisances_have_absorbed(const Fit& fit) const {
+  return have_absorbed(fit.deviance, problem_->rows(), largest_common_shift(*problem_, fit.point).z);
 }
 
 // True if `with` removes most of a nuisance offset that all trials have in common in `without`.
-bool Search::unbends(const Fit& without, const Fit& with) const {
-  return removes_offset(largest_lean(*problem_, without.point).z, largest_lean(*problem_, with.point).z);
+bool Search::removes_common_shift(const Fit& without, const Fit& with) const {
+  return removes_offset(largest_common_shift(*problem_, without.point).z,
+                        largest_common_shift(*problem_, with.point).z);
 }
 
 void Search::expand(const std::vector<std::size_t>& from, std::size_t fits) {
@@ -263,7 +264,8 @@ void Search::restart_null() {
     if (over()) return;
     const double before = null().fit.deviance;
     expand({}, kFitsToFreeNull);
-    if (round == 0 && options_.straight && is_bent(null().fit)) evaluate_straight(SetFit(null()));
+    if (round == 0 && options_.straight && nuisances_have_absorbed(null().fit))
+      evaluate_straight(SetFit(null()));
     const SetFit* closest = nullptr;
     for (const auto& [set, fit] : sets_)
       if (set.size() == 1 && !started_from.contains(set) &&
@@ -327,7 +329,7 @@ void Search::grow_sets() {
   for (std::size_t size = 1; size <= options_.most_effects && !over(); ++size) {
     // Only for the set with the smallest deviance: this costs as much as a screen with all its fits.
     const SetFit nearest = sets_.at(front.front());
-    if (options_.straight && is_bent(nearest.fit)) evaluate_straight(nearest);
+    if (options_.straight && nuisances_have_absorbed(nearest.fit)) evaluate_straight(nearest);
     share_of_screen_ = 1.0 / (sizes * static_cast<double>(front.size()));
     for (std::size_t i = 0; i < front.size(); ++i) {
       share_ = static_cast<double>(size - 1) / sizes + share_of_screen_ * static_cast<double>(i);

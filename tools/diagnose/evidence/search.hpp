@@ -126,8 +126,8 @@ class Search {
   void evaluate_straight(const SetFit& from);
   void fit_straight(const SetFit& from, const Point& start, const std::vector<KeptColumns>& columns,
                     double& closest);
-  bool is_bent(const Fit& fit) const;
-  bool unbends(const Fit& without, const Fit& with) const;
+  bool nuisances_have_absorbed(const Fit& fit) const;
+  bool removes_common_shift(const Fit& without, const Fit& with) const;
   void judge(SetFit& fit);
   std::vector<double> deviances_without_one(const SetFit& fit) const;
   bool is_to_be_judged(const SetFit& fit) const;

@@ -267,7 +267,7 @@ void Search::judge(SetFit& result) {
                    .is_strongest = &evidence == &*strongest,
                    .drop = drop,
                    .came_true = !has_parent || comes_true(fitted->second.fit, result.fit, evidence.gain),
-                   .removes_offset = has_parent && unbends(fitted->second.fit, result.fit),
+                   .removes_offset = has_parent && removes_common_shift(fitted->second.fit, result.fit),
                    .explained = null().fit.deviance - result.fit.deviance,
                    .between_programs = unnoticed(*problem_, problem_->candidates[evidence.candidate],
                                                  channels_read(*problem_, point.hypothesis, e))});

@@ -36,7 +36,7 @@ double held_out_gain(const Problem& problem, const Residuals& residuals, const P
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const TrialModel& trial = *problem.trials[t];
     for (std::size_t i = 0; i < trial.trial_nuisances.size(); ++i)
-      if (trial.trial_nuisances[i].may_lean)
+      if (trial.trial_nuisances[i].shift_is_evidence)
         gain += (std::pow(null.nuisances[t][i], 2) - std::pow(point.nuisances[t][i], 2)) /
                 std::pow(trial.trial_nuisances[i].sd, 2);
     for (std::size_t k = 0; k < trial.rows.size(); ++k) {

@@ -23,7 +23,7 @@ Residuals residuals_of(const Problem& problem, const Point& null, const Point& p
 
 // Drop of the squared residuals of held-out trials against the belief: sum over rows of (before^2 -
 // held_out^2) / sd^2. It is not whitened, because whitening hides slow drifts. The drop of the prior terms of
-// nuisances with `may_lean` is added: a bed that grows stiffer from trial to trial shows only there.
+// nuisances with `shift_is_evidence` is added: a bed that grows stiffer from trial to trial shows only there.
 double held_out_gain(const Problem& problem, const Residuals& residuals, const Point& null,
                      const Point& point);
 

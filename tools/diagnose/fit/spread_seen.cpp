@@ -37,7 +37,7 @@ std::vector<Point> take_spread_as_seen(Problem& problem, Point& point) {
     if (seen > kFarLess * std::max(first.sd, std::abs(shared))) continue;
     for (auto& trial : problem.trials) {
       trial->trial_nuisances[i].sd = std::max(kHeldUp * seen, kLeastSpread * first.sd);
-      trial->trial_nuisances[i].may_lean = false;  // the believed spread no longer applies
+      trial->trial_nuisances[i].shift_is_evidence = false;  // the believed spread no longer applies
     }
     for (auto& own : point.nuisances) own[i] = 0.0;
     found.emplace_back(first.shared_as, shared);

@@ -37,7 +37,7 @@ struct Nuisance {
   std::string port{};  // named in the answer if the nuisance is shifted alike in all trials; empty: no port
   // True if a common shift in all trials is evidence of missing physics. False for timing conventions of the
   // recording, and if the belief states no spread.
-  bool may_lean = true;
+  bool shift_is_evidence = true;
   // Label of the effect that is the same quantity, if the trials may also share one value of it
   // (fit/spread_seen.hpp). Empty: none.
   std::string shared_as{};

@@ -51,14 +51,14 @@ std::optional<RecommendedBenchTest> bench_test_for(const std::vector<std::string
     const auto own = std::ranges::find_if(candidates, [&](const Candidate& c) { return c.label() == name; });
     const BenchTest* test = own == candidates.end() ? nullptr : bench_test_of(*own->effect, plant);
     if (test == nullptr) continue;
-    std::vector<std::string> told_apart, alike;
+    std::vector<std::string> distinguished, alike;
     for (const auto& other : names)
       if (other != name)
-        (std::ranges::count(test->same_for, id_of(other)) > 0 ? alike : told_apart).push_back(other);
-    if (told_apart.empty()) continue;
+        (std::ranges::count(test->same_for, id_of(other)) > 0 ? alike : distinguished).push_back(other);
+    if (distinguished.empty()) continue;
     RecommendedBenchTest out{test->kind, {}, sentence_of(*test, plant, own->channel)};
     out.order = out.why.substr(0, out.why.find(": "));
-    out.why += fmt::format(" It distinguishes {} from {}", name, listed(told_apart, "and"));
+    out.why += fmt::format(" It distinguishes {} from {}", name, listed(distinguished, "and"));
     out.why += alike.empty() ? "." : fmt::format(", but not from {}.", listed(alike, "or"));
     return out;
   }

@@ -11,7 +11,7 @@ namespace sandhopper::diagnose {
 
 // Doublings of information that one unit of cost must give. Set by hand: a larger value prefers usual
 // set-ups.
-inline constexpr double kPriceOfTrouble = 0.1;
+inline constexpr double kLeastGainPerCost = 0.1;
 
 // The trial with the largest worth minus cost (the first of equals). `worth`: without cost, in doublings of
 // the information; `all`: the worth of every trial.
@@ -27,7 +27,7 @@ Choice best_of(const PlannedTrials& planned, const Worth& worth) {
   parallel_for(planned.size(), [&](std::size_t i) { choice.all[i] = worth(i); });
   double most = -1e300;
   for (std::size_t i = 0; i < planned.size(); ++i)
-    if (const double net = choice.all[i] - kPriceOfTrouble * planned[i].cost; net > most) {
+    if (const double net = choice.all[i] - kLeastGainPerCost * planned[i].cost; net > most) {
       most = net;
       choice.trial = i;
       choice.worth = choice.all[i];

@@ -84,7 +84,7 @@ StudySection noise_section(const Diagnosis& d) {
     return sd > 0.0 ? plain_number(sd, 3) + " " + quantity_of(n.channel).unit : "–";
   };
   for (const auto& n : d.noise) {
-    table.rows.push_back({n.channel, n.said_by.empty() ? "nobody" : n.said_by,
+    table.rows.push_back({n.channel, n.source.empty() ? "nobody" : n.source,
                           n.is_raised ? "raised, see below" : "as the sensor's own", size(n, n.stated),
                           size(n, n.measured), size(n, n.used),
                           n.stated > 0.0 ? fmt::format("{:.2f}", n.times()) : "–"});
@@ -247,7 +247,7 @@ StudySection belief_section(const Diagnosis& d) {
     if (n.known_sd > 0.0)
       value += fmt::format(" (known to {}; beside what was found the recordings ask for {})",
                            number(n.known_sd), signed_number(n.asked_for, 2));
-    table.rows.push_back({n.key, n.said_by, value, with_powers(n.unit), number(n.usual_error),
+    table.rows.push_back({n.key, n.source, value, with_powers(n.unit), number(n.usual_error),
                           n.error_that_shows == 0.0           ? std::string("not looked at")
                           : std::isfinite(n.error_that_shows) ? plain_number(n.error_that_shows, 2)
                                                               : std::string("none"),

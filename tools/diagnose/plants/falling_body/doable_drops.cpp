@@ -103,10 +103,10 @@ std::vector<DoableTrial> doable_drops(const PlantModel& plant, const std::vector
                                       const Belief& belief, const Edits& edits, const Reach& reach) {
   std::vector<DoableTrial> trials;
   if (recorded.empty()) return trials;
-  const auto told = with_heights(recorded);
+  const auto aligned = with_heights(recorded);
   const bool height_known =
-      std::ranges::any_of(told, [](const Trial& trial) { return trial.setup.contains("release_height_m"); });
-  const auto heights = extent_of(told, "release_height_m", longest_fall_m(recorded, belief));
+      std::ranges::any_of(aligned, [](const Trial& trial) { return trial.setup.contains("release_height_m"); });
+  const auto heights = extent_of(aligned, "release_height_m", longest_fall_m(recorded, belief));
   const double mass_kg = belief.value("body.mass_kg", 1.0);
   auto release_heights =
       reach.settings("release_height_m",

@@ -84,8 +84,9 @@ class Falling {
     quadratic_ = 0.5 * f_.density_kg_per_m3 * f_.area_m2 * f_.drag_coefficient;
     let_go_s_ = stop ? fall.impact_s : fall.release_s;
     if (fall.release_nuisance >= 0) let_go_s_ += nuisances[index(fall.release_nuisance)];
-    told_ = fall.touchdown_nuisance >= 0;
-    if (told_) told_s_ = fall.touchdown_s + nuisances[index(fall.touchdown_nuisance)];
+    touchdown_is_fitted_ = fall.touchdown_nuisance >= 0;
+    if (touchdown_is_fitted_)
+      fitted_touchdown_s_ = fall.touchdown_s + nuisances[index(fall.touchdown_nuisance)];
     constexpr double kFarAbove_m = 1e6;
     s_ = {0.0,
           fall.start_height_m + nuisances[0] - fall.to_entry_s * nuisances[1] +
@@ -133,7 +134,8 @@ class Falling {
       const double taken_up_kg = carried_kg(depth_m + kApart_m) - carried_kg(depth_m - kApart_m);
       force_N += taken_up_kg / (2.0 * kApart_m) * v * v;
     }
-    if (fall_.bed && v < 0.0 && (on_bed_ || !told_)) force_N += bed_force_N(f_, ground_, depth_m, -v);
+    if (fall_.bed && v < 0.0 && (on_bed_ || !touchdown_is_fitted_))
+      force_N += bed_force_N(f_, ground_, depth_m, -v);
     if (!laws_.empty())
       force_N += sum_of(laws_, BodyState{.time_s = t - let_go_s_,
                                          .height_m = h,
@@ -180,7 +182,7 @@ class Falling {
       touchdown_s_ = s_.t - dt + part_s;
       speed_at_surface_mps_ = before_mps + a * part_s;
     }
-    resting_ = fall_.bed && (on_bed_ || !told_) && s_.v >= 0.0 && s_.h < f_.surface_height_m;
+    resting_ = fall_.bed && (on_bed_ || !touchdown_is_fitted_) && s_.v >= 0.0 && s_.h < f_.surface_height_m;
   }
 
   void advance_to(double t, int parts, int level = 0) {
@@ -194,20 +196,22 @@ class Falling {
       falling_ = true;
       s_.t = std::max(let_go_s_, grid_s - step_s);
     }
-    if (falling_ && told_ && !on_bed_ && grid_s > told_s_) {
+    if (falling_ && touchdown_is_fitted_ && !on_bed_ && grid_s > fitted_touchdown_s_) {
       // The fall is simulated to the surface, even if it arrives too late or too early. The bed phase begins
       // at the fitted touchdown.
-      if (s_.t < told_s_) advance_to(told_s_, 1);
+      if (s_.t < fitted_touchdown_s_) advance_to(fitted_touchdown_s_, 1);
       for (int more = 0; !reached_ && more < 4000; ++more) advance(step_s);
       if (!reached_) touchdown_s_ = s_.t;
       on_bed_ = true;
-      s_ = {std::max(told_s_, grid_s - step_s), f_.surface_height_m, reached_ ? speed_at_surface_mps_ : s_.v};
+      s_ = {std::max(fitted_touchdown_s_, grid_s - step_s), f_.surface_height_m,
+            reached_ ? speed_at_surface_mps_ : s_.v};
     }
     if (falling_ && !resting_ && grid_s > s_.t) {
       // The bed's force has a kink at the surface, so steps near and in the bed are short.
       const bool near_bed =
           fall_.bed &&
-          (on_bed_ || (!told_ && s_.h + 2.0 * (grid_s - s_.t) * std::min(s_.v, 0.0) < f_.surface_height_m));
+          (on_bed_ || (!touchdown_is_fitted_ &&
+                       s_.h + 2.0 * (grid_s - s_.t) * std::min(s_.v, 0.0) < f_.surface_height_m));
       advance_to(grid_s, near_bed ? 5 : 1);
       s_.t = grid_s;
     }
@@ -219,8 +223,8 @@ class Falling {
   GroundLaws ground_;
   double displaced_kg_ = 0.0, weight_N_ = 0.0, buoyancy_N_ = 0.0, quadratic_ = 0.0;
   double let_go_s_ = 0.0;
-  bool told_ = false;  // the touchdown is fitted
-  double told_s_ = 1e300;
+  bool touchdown_is_fitted_ = false;  // the touchdown is fitted
+  double fitted_touchdown_s_ = 1e300;
   FallState s_{};
   bool on_bed_, falling_ = false, resting_ = false, reached_ = false;
   double touchdown_s_ = 0.0, speed_at_surface_mps_ = 0.0;

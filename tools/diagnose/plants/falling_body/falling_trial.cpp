@@ -17,7 +17,7 @@ namespace {
 constexpr double kSpeedOfAThrow_mps = 3.0;  // standard deviation of a release speed that nothing states
 constexpr double kKnownHeight_m = 0.01;     // standard deviation of a release height in the set-up
 constexpr double kKnownSpeed_mps = 0.02;  // standard deviation of the release speed, if the height is stated
-constexpr double kToldSpeed = 0.01;       // relative standard deviation of an impact speed in the set-up
+constexpr double kStatedSpeed = 0.01;     // relative standard deviation of an impact speed in the set-up
 constexpr double kReleaseTime_s = 0.03;   // standard deviation of a release that the recording shows
 constexpr double kTouchdownTime_s = 0.1;  // standard deviation of a touchdown that the recording shows
 constexpr double kKink_s = 4e-3;  // nearer to the touchdown, accelerations are left out: they have a kink
@@ -58,10 +58,10 @@ class FallingTrial final : public TrialModel {
     const auto heights = without_repeats(samples_of(trial, "height_m"));
     // If neither a height nor the entry is known, fast accelerations are averaged: a stop of some tenths of a
     // second needs no faster rows.
-    height_told_ = trial.setup.contains("release_height_m");
+    height_is_stated_ = trial.setup.contains("release_height_m");
     const double noise_m = std::max(fluctuation_rms(heights), belief.value("sensors.height_noise_m"));
-    ground_is_at_zero_ = height_told_ && !goes_on_below_zero(heights, kLanded * noise_m);
-    const bool height_known = !heights.empty() || height_told_;
+    ground_is_at_zero_ = height_is_stated_ && !goes_on_below_zero(heights, kLanded * noise_m);
+    const bool height_known = !heights.empty() || height_is_stated_;
     const auto recorded = without_repeats(samples_of(trial, "accel_mps2"));
     entry_s_ = entry_of(trial, belief);
     const auto accels = height_known || entry_s_ ? recorded : averaged(recorded, kLongestRow_s);
@@ -135,11 +135,11 @@ class FallingTrial final : public TrialModel {
     if (!found_s) found_s = loss_of_weight_s(accels, g);
     if (!found_s)
       found_s = end_of_rest_s(heights, fall_.belief.value("sensors.height_noise_m"), released_mps2());
-    if (!found_s && height_told_ && accels.empty() && told_speed_mps(trial) == 0.0)
+    if (!found_s && height_is_stated_ && accels.empty() && stated_speed_mps(trial) == 0.0)
       found_s = rest_before_fall_s(heights.time_s, heights.value);
     fall_.held = found_s.has_value();
     fall_.release_s = found_s.value_or(0.0);
-    if (fall_.held || !accels.empty() || height_told_) return;
+    if (fall_.held || !accels.empty() || height_is_stated_) return;
     if (const auto let_go_s = release_by_hand_s(heights)) {
       fall_.release_s = *let_go_s + kLetGo_s;
       fall_.held = from_release_ = true;
@@ -198,21 +198,21 @@ class FallingTrial final : public TrialModel {
 
   // Start of a fall without recorded heights: at the entry the body is at the surface, with the speed that
   // the set-up states.
-  void begin_before_entry(double told_mps, double& height_sd, double& speed_sd) {
+  void begin_before_entry(double stated_mps, double& height_sd, double& speed_sd) {
     const double g = fall_.belief.value("gravity_mps2", 9.81);
     const double fall_s = *entry_s_ - (fall_.held ? fall_.release_s : 0.0);
-    if (fall_.held || told_mps == 0.0)
+    if (fall_.held || stated_mps == 0.0)
       fall_.start_speed_mps = 0.0;
     else
-      fall_.start_speed_mps = g * fall_s - told_mps;
-    if (!fall_.held && told_mps > 0.0) speed_sd = std::max(kKnownSpeed_mps, kToldSpeed * told_mps);
+      fall_.start_speed_mps = g * fall_s - stated_mps;
+    if (!fall_.held && stated_mps > 0.0) speed_sd = std::max(kKnownSpeed_mps, kStatedSpeed * stated_mps);
     fall_.start_height_m = fall_.surface_m + fall_s * (0.5 * g * fall_s - fall_.start_speed_mps);
     fall_.to_entry_s = fall_s;
     height_sd = std::max(1e-3, (g * fall_s - fall_.start_speed_mps) * fall_.step_s);
   }
 
   void place(const Trial& trial, const Samples& heights) {
-    const bool told = height_told_;
+    const bool stated = height_is_stated_;
     double seen = 0.0;
     if (from_release_) {
       seen = on_grid(heights, fall_.release_s, fall_.step_s, 1, false).values[0];
@@ -220,30 +220,30 @@ class FallingTrial final : public TrialModel {
       const std::size_t n = std::min<std::size_t>(heights.value.size(), 3);
       for (std::size_t i = 0; i < n; ++i) seen += heights.value[i] / static_cast<double>(n);
     }
-    fall_.start_height_m = told ? trial.setup_or("release_height_m", 0.0) : seen;
+    fall_.start_height_m = stated ? trial.setup_or("release_height_m", 0.0) : seen;
     // A drop has a positive speed downward in the set-up. It is upward if the heights rise, or if
     // choose_direction() finds so.
-    const double told_mps = std::abs(told_speed_mps(trial));
+    const double stated_mps = std::abs(stated_speed_mps(trial));
     const bool rises = heights.value.size() > 5 && heights.value[5] > heights.value[0];
-    fall_.start_speed_mps = rises ? told_mps : -told_mps;
+    fall_.start_speed_mps = rises ? stated_mps : -stated_mps;
     if (fall_.impact_s >= 0.0) fall_.start_speed_mps = fall_speed_mps_;
     const double noise = std::max(fluctuation_rms(heights), fall_.belief.value("sensors.height_noise_m"));
     double height_sd = std::max(kKnownHeight_m, noise);
-    if (told) height_sd = spread_of(fall_.belief, "spread.release_height_m", height_sd);
+    if (stated) height_sd = spread_of(fall_.belief, "spread.release_height_m", height_sd);
     // Takes the height from the recording if the set-up has none, or one over another zero.
-    if (!told || (!heights.empty() && std::abs(seen - fall_.start_height_m) > 0.2 + 8.0 * height_sd)) {
+    if (!stated || (!heights.empty() && std::abs(seen - fall_.start_height_m) > 0.2 + 8.0 * height_sd)) {
       if (!heights.empty()) fall_.start_height_m = seen;
       height_sd = 1.0;
     }
     double speed_sd =
-        release_speed_sd_mps(fall_.belief, told_mps, told ? kKnownSpeed_mps : kSpeedOfAThrow_mps);
+        release_speed_sd_mps(fall_.belief, stated_mps, stated ? kKnownSpeed_mps : kSpeedOfAThrow_mps);
     if (fall_.held && !from_release_) speed_sd = std::min(speed_sd, 0.1);
     if (fall_.impact_s >= 0.0) speed_sd = kUnknownImpact_mps;
     fall_.surface_m = believed_surface_m(fall_.belief).value_or(0.0);
     if (entry_s_) {
       if (!heights.empty() && !believed_surface_m(fall_.belief))
         fall_.surface_m = on_grid(heights, *entry_s_, fall_.step_s, 1, false).values[0];
-      if (heights.empty()) begin_before_entry(told_mps, height_sd, speed_sd);
+      if (heights.empty()) begin_before_entry(stated_mps, height_sd, speed_sd);
     }
     add_nuisances(trial, heights, height_sd, speed_sd);
     height_sensor_ = sensor_belief(fall_.belief, "height", "m");
@@ -272,9 +272,10 @@ class FallingTrial final : public TrialModel {
     }
     // The zero of an accelerometer that is the only sensor, and that the belief does not describe, may be
     // off.
-    const bool told_of_accel = fall_.belief.value("sensors.accel_noise_mps2") > 0.0 || fall_.impact_s < 0.0;
+    const bool accel_is_described =
+        fall_.belief.value("sensors.accel_noise_mps2") > 0.0 || fall_.impact_s < 0.0;
     const double bias_sd =
-        spread_of(fall_.belief, "spread.accel_bias_mps2", told_of_accel ? 0.0 : kUnknownBias_mps2);
+        spread_of(fall_.belief, "spread.accel_bias_mps2", accel_is_described ? 0.0 : kUnknownBias_mps2);
     if (const double sd = bias_sd; sd > 0.0 && trial.find("accel_mps2")) {
       accel_bias_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"accel_bias_mps2", sd, 1e-2});
@@ -376,7 +377,7 @@ class FallingTrial final : public TrialModel {
   }
 
   Fall fall_;
-  bool height_told_ = false;  // the set-up states release_height_m
+  bool height_is_stated_ = false;  // the set-up states release_height_m
   bool ground_is_at_zero_ = false;
   bool from_release_ = false;  // rows before the release are left out
   double height_jitter_s_ = 0.0, stop_s_ = 1e300, landed_after_s_ = 1e300;

@@ -86,12 +86,12 @@ class IntruderTrial final : public TrialModel {
     // Error of the deepest point, at which the steep unloading line starts. Its noise shifts all rows of the
     // unloading by the same depth.
     add_nuisance("turning_depth_m", motion_.depth_sd_m, motion_.depth_sd_m);
-    trial_nuisances.back().may_lean = false;
+    trial_nuisances.back().shift_is_evidence = false;
     add_knots();
     if (!ages.empty()) {
       age_nuisance_ = trial_nuisances.size();
       add_nuisance("sample_age_share", kAgeShareUnknown, 0.05);
-      trial_nuisances.back().may_lean = false;
+      trial_nuisances.back().shift_is_evidence = false;
     }
     const double noise_N =
         std::max({belief_.value("sensors.load_cell_noise_N"), fluctuation_rms(force), 1e-6});

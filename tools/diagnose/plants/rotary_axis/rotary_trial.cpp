@@ -71,7 +71,7 @@ class RotaryTrial final : public TrialModel {
     has_torque_offset_ = torque_sd > 0.0;
     if (has_torque_offset_) {
       trial_nuisances.push_back({"torque_offset_Nm", torque_sd, 0.1 * torque_sd});
-      trial_nuisances.back().may_lean = belief.numbers.contains("spread.torque_offset_Nm");
+      trial_nuisances.back().shift_is_evidence = belief.numbers.contains("spread.torque_offset_Nm");
     }
     take_zero_of_angle(!positions.empty());
     if (stretches_.empty()) return;

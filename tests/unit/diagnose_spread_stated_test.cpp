@@ -118,9 +118,9 @@ TEST(DiagnoseSpread, ANumberThatNobodyStatedAndThatLeansAlikeInAllTrialsIsSaid) 
 }
 
 // Sound presses were called consistent only if every turning point lay .007 mm higher, and drops would be if
-// each had its own release: what each trial has for itself, and what a recording's convention may shift,
-// leans in vain.
-TEST(DiagnoseSpread, WhatEachTrialHasForItselfNeverLeans) {
+// each had its own release. A common shift of what
+// each trial has for itself, or of a convention of the recorder, is no evidence.
+TEST(DiagnoseSpread, WhatEachTrialHasForItselfIsNoEvidence) {
   for (const auto& all :
        {presses([](double, double) { return 0.0; }), drops([](double, double, double) { return 0.0; })}) {
     auto recordings = all;
@@ -131,7 +131,7 @@ TEST(DiagnoseSpread, WhatEachTrialHasForItselfNeverLeans) {
     for (const auto& n : d.trial_to_trial)
       if (n.name.starts_with("release_") || n.name == "touchdown_time_s" || n.name == "turning_depth_m") {
         EXPECT_TRUE(n.is_default) << n.name;
-        EXPECT_FALSE(n.leans_alike) << n.name;
+        EXPECT_FALSE(n.shifts_alike) << n.name;
       }
   }
 }
