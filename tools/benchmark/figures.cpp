@@ -25,7 +25,7 @@ std::vector<Figure> section_6(const std::vector<Judged>& cases) {
   Figure floor{"held-out error within 1.2 of the floor, solved", 0, 0, 0.90, 0.90};
   Figure intervals{"95 % intervals that hold the truth", 0, 0, 0.90, 0.94};
   // Hidden effects that were called absent with a bound below their size: none is allowed.
-  Figure bounds{"upper bounds of `absent` that hold", 0, 0, 1.0, 1.0};
+  Figure bounds{"upper bounds of absent effects that hold", 0, 0, 1.0, 1.0};
   for (const auto& j : cases) {
     const auto& truth = *j.truth;
     add(wrong, j.confident_wrong);

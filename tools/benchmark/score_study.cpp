@@ -57,9 +57,9 @@ StudyTable figures_table(const std::vector<Column>& columns, const std::vector<F
   table.rows.push_back(std::move(row));
   table.note = fmt::format(
       "Typical size: {} to {} times the size in the generator's list. Mean class size of the right names "
-      "there: {:.2f}. {} "
-      "parameters have "
-      "no counterpart of the same name or unit in the diagnosis and are not in the intervals' figure.",
+      "there: {:.2f}. Hidden parameters that the diagnosis has under no such name or unit: {}; the "
+      "intervals' "
+      "figure leaves them out.",
       kTypicalFrom, kTypicalTo, own.mean_class_size, own.intervals_without_counterpart);
   return table;
 }
@@ -195,9 +195,10 @@ Study score_study(const std::vector<Column>& columns, const std::vector<Figure>&
                  {"time", time_text(seconds)}};
   for (const auto& f : own.figures)
     if (f.of > 0 && !f.met())
-      study.warnings.push_back(fmt::format("{}: {} %, must be {} %.", f.name, shown(f), bound(f, f.must)));
+      study.warnings.push_back(
+          fmt::format("Missed: {}: {} %, must be {} %.", f.name, shown(f), bound(f, f.must)));
   if (own.localisation.campaigns > 0 && !own.localisation.met())
-    study.warnings.push_back(fmt::format("localisation, F1: {} %, must be {} %.",
+    study.warnings.push_back(fmt::format("Missed: localisation, F1: {} %, must be {} %.",
                                          shown(own.localisation.f1()), at_least(Localisation::kMust)));
   StudyTable plants{.title = "Right name or class at typical size, by plant",
                     .columns = {"plant", "right, %", "of"}};
