@@ -146,6 +146,25 @@ TEST(LostFramesLimits, JumpsAreWholeStepsBeyondChance) {
   EXPECT_FALSE(has_lost_frames(1.0, {2.115, 2.115, 2.115}));
 }
 
+// A recorder that reads samples in its own time skips some and reads others twice. As many or more are
+// skipped by chance: 9 of 12 with 7.3 %, 11 of 12 with 0.3 %.
+TEST(LostFramesLimits, SamplesThatAreReadTwiceAsOftenAsTheyAreSkippedAreOnlyLate) {
+  const auto is_seen = [](int skipped) {
+    std::vector<double> values{0.0};
+    for (int i = 0; i < 200; ++i) {
+      const bool special = i % 15 == 10 && i / 15 < 12;
+      const double times = !special ? 1.0 : i / 15 < skipped ? 2.0 : 0.0;
+      values.push_back(values.back() + times + (i == 199 ? 0.001 : 0.0));
+    }
+    auto recording = positions(std::move(values), 0.01);
+    check_lost_frames(recording, {});
+    return !recording.findings.empty();
+  };
+  EXPECT_FALSE(is_seen(6));
+  EXPECT_FALSE(is_seen(9));
+  EXPECT_TRUE(is_seen(11));
+}
+
 // An encoder whose smallest step is 1; its other steps and their sums are whole numbers, too.
 TEST(LostFramesLimits, AJumpIsClearOfTheEncodersStep) {
   const auto is_seen = [](int step) {

@@ -142,6 +142,28 @@ TEST(DiagnoseDataFaults, AnEncoderAtItsTurningPointIsNotStuck) {
   }
 }
 
+// A joint that sticks comes to rest gradually and starts again with single counts. A stuck encoder jumps to
+// the present position.
+TEST(DiagnoseDataFaults, AJointThatSticksForAWhileIsNoStuckEncoder) {
+  for (const bool sticks : {true, false}) {
+    Trial trial;
+    trial.name = "1";
+    double counts = 0.0;
+    for (int i = 0; i < 600; ++i) {
+      const int since = i % 100 - 50;  // from the middle of a rest of nine rows
+      const bool rests = std::abs(since) < 5;
+      if (!rests) counts += std::min(40.0, 1.0 + std::pow(std::abs(since) - 5, 2) / 4.0);
+      if (rests && !sticks) counts += 20.0;
+      const bool held = rests && since > -4;
+      trial.time_s.push_back(1e-3 * i);
+      auto& position = trial.channels["position_rad"];
+      position.push_back(held ? position.back() : 1e-6 * std::round(counts));
+    }
+    std::vector<Trial> trials{trial};
+    EXPECT_EQ(remove_data_faults(trials).size(), sticks ? 0u : 1u);
+  }
+}
+
 // A velocity that is computed from encoder counts is exactly 0 while no new count comes.
 TEST(DiagnoseDataFaults, AnEncoderThatStandsWhileTheOtherMotorStandsIsNotStuck) {
   for (const bool both : {true, false}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::size_t kStepsBeside = 3;  // on each side; they give the usual step and its change
 constexpr double kJumpClear = 5.0;       // in standard deviations
+constexpr double kByChance = 0.01;
 
 // True if all steps of the time are equal within the digits that it is written with.
 bool grows_evenly(const std::vector<double>& t_s) {
@@ -49,16 +51,22 @@ struct FrameJump {
   double off = 0.0;     // Distance of the step from a whole number of usual ones, at most 1/2.
 };
 
-// A jump that the steps on both sides, even within a fifth, and the noise do not explain, and that is not
-// made up for by the next step, as a late sample would be. The mean of both sides is right for a constant
-// acceleration, too.
-std::optional<FrameJump> jump_at(const EvenSamples& samples, std::size_t at, double noise) {
+// The usual step at `at`: the mean of both sides, which is right for a constant acceleration, too. Empty if
+// the sides are not even within a fifth.
+std::optional<double> usual_step(const EvenSamples& samples, std::size_t at) {
   constexpr double kEven = 0.2, kBeside = static_cast<double>(kStepsBeside);
-  const auto &x = samples.values, &steps = samples.steps;
+  const auto& x = samples.values;
   const double before = (x[at] - x[at - kStepsBeside]) / kBeside;
   const double after = (x[at + 1 + kStepsBeside] - x[at + 1]) / kBeside;
   const double step = 0.5 * (before + after);
   if (!(before * after > 0.0) || !(std::abs(before - after) < kEven * std::abs(step))) return std::nullopt;
+  return step;
+}
+
+// A step that the usual one and the noise do not explain, and that is not made up for by the next step, as a
+// late sample would be.
+std::optional<FrameJump> jump_at(const EvenSamples& samples, std::size_t at, double step, double noise) {
+  const auto& steps = samples.steps;
   const double times = steps[at] / step;
   if (!(times > 1.5) || !(std::abs(steps[at] - step) > kJumpClear * noise)) return std::nullopt;
   if (!(steps[at + 1] / step > 0.5)) return std::nullopt;
@@ -66,22 +74,46 @@ std::optional<FrameJump> jump_at(const EvenSamples& samples, std::size_t at, dou
                    std::abs(times - std::round(times))};
 }
 
-// Empty if the jumps are no whole numbers of steps, as those of a foot that sticks and slips, or may be that
-// by chance: n numbers are all within `off` of a whole one with the probability (2 off)^n.
-std::vector<FrameJump> jumps_of(std::span<const double> channel) {
-  constexpr std::size_t kFewestJumps = 3;  // one or two may be an impact or a slip
-  constexpr double kByChance = 0.01;
-  const EvenSamples samples(channel);
+struct LostFrames {
   std::vector<FrameJump> jumps;
-  if (samples.steps.size() < 4 * kStepsBeside) return jumps;
+  std::size_t repeated = 0;  // samples that were read twice
+};
+
+// True if a sample stands still between moving ones: it was read twice.
+bool is_repeated(const EvenSamples& samples, std::size_t at, double step, double noise) {
+  return std::abs(samples.steps[at] / step) < 0.5 && std::abs(samples.steps[at] - step) > kJumpClear * noise;
+}
+
+// True if the samples may only be late: a recorder that reads them in its own time skips some and reads
+// others twice, each as often as the other.
+bool are_late(std::size_t skipped, std::size_t repeated) {
+  if (repeated == 0) return false;
+  const boost::math::binomial equal(static_cast<double>(skipped + repeated), 0.5);
+  return boost::math::cdf(boost::math::complement(equal, static_cast<double>(skipped) - 1.0)) > kByChance;
+}
+
+// Empty if the samples may only be late, if the jumps are no whole numbers of steps, as those of a foot that
+// sticks and slips, or if they may be that by chance: n numbers are all within `off` of a whole one with the
+// probability (2 off)^n.
+LostFrames lost_frames(std::span<const double> channel) {
+  constexpr std::size_t kFewestJumps = 3;  // one or two may be an impact or a slip
+  const EvenSamples samples(channel);
+  LostFrames lost;
+  auto& [jumps, repeated] = lost;
+  if (samples.steps.size() < 4 * kStepsBeside) return lost;
   // Steps of an encoder differ by its own step: 1, 1, 2, 1, 1 are no lost frames.
   const double noise = std::max(std::sqrt(2.0) * noise_of_bends(samples.values), digit_of(samples.steps));
   double off = 0.0;
-  for (std::size_t at = kStepsBeside; at + kStepsBeside < samples.steps.size(); ++at)
-    if (const auto jump = jump_at(samples, at, noise)) jumps.push_back(*jump), off = std::max(off, jump->off);
+  for (std::size_t at = kStepsBeside; at + kStepsBeside < samples.steps.size(); ++at) {
+    const auto step = usual_step(samples, at);
+    if (!step) continue;
+    if (is_repeated(samples, at, *step, noise)) ++repeated;
+    if (const auto jump = jump_at(samples, at, *step, noise))
+      jumps.push_back(*jump), off = std::max(off, jump->off);
+  }
   const bool by_chance = std::pow(2.0 * off, static_cast<double>(jumps.size())) > kByChance;
-  if (jumps.size() < kFewestJumps || by_chance) jumps.clear();
-  return jumps;
+  if (jumps.size() < kFewestJumps || by_chance || are_late(jumps.size(), repeated)) jumps.clear();
+  return lost;
 }
 
 // Rows of the longest stretch without a jump.
@@ -95,8 +127,9 @@ std::pair<std::size_t, std::size_t> longest_stretch(const std::vector<FrameJump>
 }
 
 void doubt_frames(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel,
-                  const std::vector<FrameJump>& jumps) {
-  double frames = 0.0;
+                  const LostFrames& lost) {
+  const auto& jumps = lost.jumps;
+  double frames = -static_cast<double>(lost.repeated);
   for (const auto& jump : jumps) frames += jump.frames;
   const auto [first, last] = longest_stretch(jumps, recording.rows());
   const auto& most =
@@ -124,8 +157,8 @@ void check_lost_frames(TrialRecording& recording, const RecordingPlaces& places)
   if (!recording.has_time || !grows_evenly(recording.t_s)) return;
   for (const auto channel : kPositions) {
     if (!recording.has(channel)) continue;
-    const auto jumps = jumps_of(recording.channel(channel));
-    if (!jumps.empty()) return doubt_frames(recording, places, channel, jumps);
+    const auto lost = lost_frames(recording.channel(channel));
+    if (!lost.jumps.empty()) return doubt_frames(recording, places, channel, lost);
   }
 }
 

@@ -94,10 +94,17 @@ bool quantity_went_on(const std::vector<double>& v, std::size_t first, std::size
   return std::abs(v[last + 1] - v[last]) >= std::max(4.0 * grid, 3.0 * change);
 }
 
-// True if the first change after the stretch is at least twice the next one. A stuck sensor jumps to the
-// present value; after a real pause the motion starts slowly.
-bool jumps_after(const std::vector<double>& v, std::size_t last) {
-  return last + 2 >= v.size() || std::abs(v[last + 1] - v[last]) >= 2.0 * std::abs(v[last + 2] - v[last + 1]);
+// True if the first change after the stretch is at least twice the next one, and two grid steps. A stuck
+// sensor jumps to the present value; after a real pause the motion starts slowly.
+bool jumps_after(const std::vector<double>& v, std::size_t last, double grid) {
+  if (last + 2 >= v.size()) return true;
+  return std::abs(v[last + 1] - v[last]) >= 2.0 * std::max(std::abs(v[last + 2] - v[last + 1]), grid);
+}
+
+// True if the quantity moves by more than its noise from sample to sample: white noise changes by sqrt(2) of
+// its standard deviation, and half of that ratio is motion.
+bool moves_smoothly(const std::vector<double>& v, std::size_t first, std::size_t last) {
+  return noise_around(v, first, last) < 0.5 * changes_around(v, first, last) / std::numbers::sqrt2;
 }
 
 // Share of repeats of this value elsewhere in the trial. The share of all values, `of_any`, counts like two
@@ -145,7 +152,7 @@ std::vector<Stretch> held_stretches(const std::vector<double>& v, const std::vec
     if (v[i] != 0.0 && length >= (fast ? kShortestOfFast : shortest) && chance < kMostRepeats &&
         (std::pow(chance, static_cast<double>(length - 1)) < (fast ? kByChanceOfFast : kByChance) ||
          length >= shortest_by_number) &&
-        quantity_went_on(v, i, j, grid) && (!quiet || jumps_after(v, j)))
+        quantity_went_on(v, i, j, grid) && (!(quiet || moves_smoothly(v, i, j)) || jumps_after(v, j, grid)))
       found.push_back({i, j, t[j] - t[i]});
     i = j + 1;
   }
@@ -255,14 +262,6 @@ bool speed_was_none(const SampledChannel& position, const std::string& channel, 
 
 constexpr double kCounts = 2.5;  // in encoder counts: a motion below this may be noise
 
-double count_of(const SampledChannel& position) {
-  double count = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < position.value.size(); ++i)
-    if (position.value[i] != position.value[i - 1])
-      count = std::min(count, std::abs(position.value[i] - position.value[i - 1]));
-  return count;
-}
-
 // True if the integrated speed is below kCounts: near a reversal an encoder shows one count for a while.
 bool within_a_count(const SampledChannel& position, const std::string& channel, const Stretch& stretch) {
   const auto* speed = speed_of(position, channel);
@@ -273,7 +272,7 @@ bool within_a_count(const SampledChannel& position, const std::string& channel, 
     if (!std::isfinite(v)) return false;
     moved += v / static_cast<double>(stretch.last - stretch.first + 1) * stretch.duration_s;
   }
-  return std::abs(moved) < kCounts * count_of(position);
+  return std::abs(moved) < kCounts * value_grid({position});
 }
 
 // True if the encoder of the other motor stood still, too: both motors move the same leg.
@@ -293,7 +292,7 @@ bool other_motor_stood(const SampledChannel& position, const std::string& channe
     low = std::min(low, v);
     high = std::max(high, v);
   }
-  return high - low < kCounts * count_of(position);
+  return high - low < kCounts * value_grid({position});
 }
 
 // Smallest difference of any two values of a channel. Successive samples may all be far apart.
