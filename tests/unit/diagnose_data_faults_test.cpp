@@ -152,7 +152,7 @@ TEST(DiagnoseDataFaults, AJointThatSticksForAWhileIsNoStuckEncoder) {
     for (int i = 0; i < 600; ++i) {
       const int since = i % 100 - 50;  // from the middle of a rest of nine rows
       const bool rests = std::abs(since) < 5;
-      if (!rests) counts += std::min(40.0, 1.0 + std::pow(std::abs(since) - 5, 2) / 4.0);
+      if (!rests) counts += std::min(40.0, 0.55 + std::pow(std::abs(since) - 5, 2) / 4.0);
       if (rests && !sticks) counts += 20.0;
       const bool held = rests && since > -4;
       trial.time_s.push_back(1e-3 * i);
