@@ -87,6 +87,22 @@ TEST(ForeignTable, InstrumentHeadersArePassedOverAndSaid) {
 }
 
 // Facts above the names may have as many cells as a row, and numbers in them.
+// Recordings side by side: the times of the shorter one end before the table.
+TEST(ForeignTable, AShorterRecordingBesideALongerOneEndsWhereItsTimesDo) {
+  const auto with_times = [](int from, int to) {
+    std::string text = "t1,angle1,t2,angle2\n";
+    for (int i = 0; i < 60; ++i)
+      text +=
+          fmt::format("{:.2f},{:.5f},", 0.01 * i, 0.3 * std::cos(0.04 * i)) +
+          (i < from || i >= to ? fmt::format("{:.2f},{:.5f}\n", 0.01 * i, 0.2 * std::cos(0.04 * i)) : ",\n");
+    return read(text, {.campaign = "[columns]\nt_s = \"t2\"\nposition_rad = \"angle2\"\n"});
+  };
+  const auto shorter = with_times(25, 60);
+  EXPECT_TRUE(shorter.usable() && shorter.rows() == 25u) << told(shorter);
+  EXPECT_THAT(told(shorter), HasSubstr("ends with line 26; the 35 rows below it have no time"));
+  EXPECT_THAT(told(with_times(10, 45)), HasSubstr("35 of 60 rows had to be left out"));
+}
+
 TEST(ForeignTable, TheNamesStandAboveTheRowsAndNotAboveTheFacts) {
   const auto swing =
       swinging({.header = "t_s;position_rad;velocity_radps;torque_Nm", .separator = ';', .decimal = ','});

@@ -81,6 +81,24 @@ bool drops_rows(CsvFault fault) {
   return fault == CsvFault::ragged_row || fault == CsvFault::no_time || fault == CsvFault::time_backwards;
 }
 
+// True if the rows without a time are all behind the last one with a time: of recordings side by side in one
+// table, this one is the shorter.
+bool ends_before_table(const CsvIssue& issue, const CsvTable& table) {
+  return issue.fault == CsvFault::no_time && !table.lines.empty() && issue.line > table.lines.back();
+}
+
+Finding end_of_recording(const CsvIssue& issue, const CsvTable& table, const std::string& file) {
+  return {FindingKind::no_time,
+          note,
+          file,
+          issue.line,
+          issue.column,
+          issue.name,
+          fmt::format("ends with line {}; the {} rows below it have no time and are not used",
+                      table.lines.back(), issue.repeats + 1),
+          ""};
+}
+
 FindingSeverity severity_of(const CsvIssue& issue, const TrialTable& table, const CampaignTrial& trial) {
   const std::uint64_t count = issue.repeats + 1;
   const bool in_cells = issue.fault == CsvFault::not_a_number || issue.fault == CsvFault::not_finite ||
@@ -119,6 +137,10 @@ void translate_issues(const Campaign& campaign, const CampaignTrial& trial, Tria
     if (campaign.plant == CampaignPlant::hopper && issue.fault == CsvFault::not_a_number &&
         issue.name == phase_column(trial)) {
       findings.push_back(unknown_phase(issue, table.file));
+      continue;
+    }
+    if (ends_before_table(issue, table.table)) {
+      findings.push_back(end_of_recording(issue, table.table, table.file));
       continue;
     }
     const auto severity = severity_of(issue, table, trial);
