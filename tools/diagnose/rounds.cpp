@@ -276,13 +276,22 @@ Search search_in_rounds(Prepared& prepared, Recordings& clean, const EngineOptio
   };
   const auto stretches = problem.plant->stretches(clean.trials);
   std::size_t stretch = 0;
+  std::string over_long_stretches;  // what the search named before the stretches became shorter
   Search search = search_from_start();
   while (stretch + 1 < stretches.size() && !search.stopped() && leaves_more_than_noise(problem, search)) {
+    if (over_long_stretches.empty() && !search.best().set.empty())
+      over_long_stretches = set_text(problem, search.best().set);
     prepare_again(++stretch);
     diagnosis.log.push_back(
         fmt::format("searched again in shorter stretches: {} times the shortest", stretches[stretch]));
     search = search_from_start();
   }
+  if (search.best().set.empty() && !over_long_stretches.empty())
+    diagnosis.notes.push_back(fmt::format(
+        "errors add up over long stretches of the motion: there {} explains a part, and the rest is more "
+        "than "
+        "the noise, so it is not named; shorter stretches show nothing. Something weak is missing",
+        over_long_stretches));
   if (search.stopped()) return search;
   const auto events = find_events(problem, search.best().fit.point);
   if (events.empty()) return search;
