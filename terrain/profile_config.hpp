@@ -16,6 +16,10 @@ struct ProfileConfig {
   // Standard deviation of the steady drag coefficient lambda (bed.hpp). The believed bed has none; drag that
   // persists at depth is in doubt, and values up to 1 are reported.
   double steady_drag_sd = 0.5;
+  // Expected spread of the strength between places prepared alike, of the whole curve and of the layer at the
+  // surface: 3 % between trials on poured glass beads. The real ones are integrated over a grid from a
+  // quarter to four times this value, 0.75 to 12 %.
+  double place_strength_sd_relative = 0.03;
   // Depth at contact (strength_profile.hpp). The mean force at which contact is found is less than the
   // threshold by `contact_early_N`, because the first of several noisy samples exceeds it. The depth belongs
   // to the motors' reply, and the accelerometer can feel the blow after it: in the mean the depth is
@@ -54,6 +58,7 @@ struct ProfileConfig {
     visit("believed_stiffness_N_per_m", self.believed_stiffness_N_per_m, Range{1.0, 1e6});
     visit("stiffness_spread_relative", self.stiffness_spread_relative, Range{0.01, 10.0});
     visit("steady_drag_sd", self.steady_drag_sd, Range{1e-6, 100.0});
+    visit("place_strength_sd_relative", self.place_strength_sd_relative, Range{1e-6, 10.0});
     visit("contact_early_N", self.contact_early_N, Range{0.0, 100.0});
     visit("contact_force_sd_N", self.contact_force_sd_N, Range{0.0, 100.0});
     visit("contact_time_s", self.contact_time_s, Range{-0.01, 0.01});

@@ -25,13 +25,13 @@ double square(double x) noexcept { return x * x; }
 // The posterior is that of a ground with inertia. The probability that there is none follows from its density
 // at c = 0 before and after the strides (Dickey 1971, Annals of Mathematical Statistics 42, 204).
 ProfileSolver::Blow ProfileSolver::blow_at_contact(double added_mass_kg_per_m) const noexcept {
-  const std::array<double, kInertia.size()> per{added_mass_kg_per_m,
-                                                added_mass_kg_per_m / BedParameters{}.added_mass_recruitment};
+  const std::array<double, 2> per{added_mass_kg_per_m,
+                                  added_mass_kg_per_m / BedParameters{}.added_mass_recruitment};
   double mean = 0.0, variance = 0.0;
-  for (std::size_t a = 0; a < kInertia.size(); ++a) {
-    mean += per[a] * posterior_.mean[kInertia[a]];
-    for (std::size_t b = 0; b < kInertia.size(); ++b)
-      variance += per[a] * per[b] * posterior_.covariance[kInertia[a] * kTerms + kInertia[b]];
+  for (std::size_t a = 0; a < per.size(); ++a) {
+    mean += per[a] * posterior_.mean[kHeld[a]];
+    for (std::size_t b = 0; b < per.size(); ++b)
+      variance += per[a] * per[b] * posterior_.covariance[kHeld[a] * kTerms + kHeld[b]];
   }
   if (!(variance > 0.0)) return {std::max(mean, 0.0), 0.0, 0.0};  // before the first fit
   const auto& joint = config_.joint;

@@ -3,11 +3,12 @@
 #include "terrain/small_gaussian.hpp"
 #include "terrain/strength_profile.hpp"
 
-// Added mass and steady drag, from the comparison of strides at different speeds.
+// Added mass, steady drag and the error of the force scale, from the comparison of strides at different
+// speeds.
 namespace sandhopper {
 
-// Adds the information of a stride on all terms, with D of each cell and f integrated out. That a stride
-// begins with the depth error of its crater is left out.
+// Adds the information of a stride to that of its place, on all terms, with D of each cell and f integrated
+// out. That a stride begins with the depth error of its crater is left out.
 void ProfileSolver::add_between(const Information& own) noexcept {
   constexpr std::size_t kOwn = kProfileCells + 1;
   constexpr double kRounding_m2 = 1e-10;  // keeps the covariance of D positive definite
@@ -49,105 +50,113 @@ void ProfileSolver::add_between(const Information& own) noexcept {
     for (std::size_t k = 0; k < kOwn; ++k) value -= a[k] * b[k];
     return value;
   };
-  between_ = kept_between_;
+  place_ = kept_place_;
   for (std::size_t i = 0; i < kTerms; ++i) {
     double of_surface = 0.0, of_lag = 0.0;
     for (std::size_t s = 0; s < kProfileCells; ++s) {
       of_surface += own.of_depth[s][i];
       of_lag += own.of_depth[s][i] * own.change_mps[s];
     }
-    between_.moment[i] += less(own.moment[i], rows[i], data);
-    between_.of_surface[i] += less(of_surface, rows[i], surface);
-    between_.of_lag[i] += less(of_lag, rows[i], lag);
+    place_.moment[i] += less(own.moment[i], rows[i], data);
+    place_.of_surface[i] += less(of_surface, rows[i], surface);
+    place_.of_lag[i] += less(of_lag, rows[i], lag);
     for (std::size_t j = 0; j <= i; ++j) {
       const double value = less(own.normal[i * kTerms + j], rows[i], rows[j]);
-      between_.normal[i * kTerms + j] += value;
-      if (j < i) between_.normal[j * kTerms + i] += value;
+      place_.normal[i * kTerms + j] += value;
+      if (j < i) place_.normal[j * kTerms + i] += value;
     }
   }
 }
 
 // `info`: normal equations of the curve over all strides, without the prior.
-void ProfileSolver::take_inertia(const Information& info) noexcept {
+void ProfileSolver::take_held(const Information& info) noexcept {
   Information prior;
   add_shared_prior(prior, posterior_.smoothness_m, posterior_.spread);
-  // Strides of one set-up differ only by their errors. The prior of kappa counts once for each place, so that
-  // repeating one set-up does not narrow c and lambda, and a shared error does not grow.
+  // Strides of one set-up differ only by their errors. The prior of kappa, and of e, which scales it, counts
+  // once for each place, so that repeating one set-up does not narrow c, lambda and e, and a shared error
+  // does not grow.
+  const auto of_curve = [](std::size_t term) { return term < kProfileCells || term == kScale; };
   const double places = std::max(places_, 1);
   auto normal = between_.normal;
   auto moment = between_.moment;
   for (std::size_t i = 0; i < kTerms; ++i) {
     moment[i] += prior.moment[i];
     for (std::size_t j = 0; j < kTerms; ++j)
-      normal[i * kTerms + j] += prior.normal[i * kTerms + j] * (i < kProfileCells ? places : 1.0);
+      normal[i * kTerms + j] += prior.normal[i * kTerms + j] * (of_curve(i) ? places : 1.0);
   }
   const Cholesky<kTerms> root(normal);
   const auto mean = root.solve(moment);
   const double surface_m2 = prior_.shared_surface_sd_m * prior_.shared_surface_sd_m;
   const double lag_s2 = prior_.depth_lag_sd_s * prior_.depth_lag_sd_s;
-  inertia_ = {.fitted = true};
-  std::array<Vector<kTerms>, kInertia.size()> column;
-  for (std::size_t a = 0; a < kInertia.size(); ++a) {
+  held_ = {.fitted = true};
+  const auto shapes = place_shapes();
+  std::array<Vector<kTerms>, kHeld.size()> column;
+  for (std::size_t a = 0; a < kHeld.size(); ++a) {
     Vector<kTerms> unit{};
-    unit[kInertia[a]] = 1.0;
+    unit[kHeld[a]] = 1.0;
     column[a] = root.solve(unit);
-    inertia_.mean[a] = mean[kInertia[a]];
+    held_.mean[a] = mean[kHeld[a]];
     for (std::size_t i = 0; i < kTerms; ++i) {
-      inertia_.of_surface[a] += column[a][i] * between_.of_surface[i];
-      inertia_.of_lag[a] += column[a][i] * between_.of_lag[i];
+      held_.of_surface[a] += column[a][i] * between_.of_surface[i];
+      held_.of_lag[a] += column[a][i] * between_.of_lag[i];
+      for (std::size_t k = 0; k < kStrengths; ++k)
+        for (std::size_t j = 0; j < kProfileCells; ++j)
+          held_.of_strength[a][k] += column[a][i] * between_.normal[i * kTerms + j] * shapes[k][j];
     }
     for (std::size_t i = 0; i < kTerms; ++i) {
-      if (inertia_.holds(i)) continue;
-      inertia_.of_error[a][i] = info.normal[i * kTerms + kInertia[a]];
-      double& with = inertia_.with_moment[a][i];
+      if (held_.holds(i)) continue;
+      held_.of_error[a][i] = info.normal[i * kTerms + kHeld[a]];
+      double& with = held_.with_moment[a][i];
       for (std::size_t j = 0; j < kTerms; ++j)
         with += (info.normal[i * kTerms + j] - between_.normal[i * kTerms + j]) * column[a][j];
-      with += surface_m2 * inertia_.of_surface[a] * errors_.of_surface[i] +
-              lag_s2 * inertia_.of_lag[a] * errors_.of_lag[i];
+      with += surface_m2 * held_.of_surface[a] * errors_.of_surface[i] +
+              lag_s2 * held_.of_lag[a] * errors_.of_lag[i];
     }
   }
-  for (std::size_t a = 0; a < kInertia.size(); ++a)
-    for (std::size_t b = 0; b < kInertia.size(); ++b) {
-      double of_prior = 0.0;  // kappa departs from its prior once, not once for each place
-      for (std::size_t i = 0; i < kProfileCells; ++i)
-        for (std::size_t j = 0; j < kProfileCells; ++j)
-          of_prior += column[a][i] * prior.normal[i * kTerms + j] * column[b][j];
-      inertia_.covariance[2 * a + b] = column[a][kInertia[b]] + places * (places - 1.0) * of_prior +
-                                       surface_m2 * inertia_.of_surface[a] * inertia_.of_surface[b] +
-                                       lag_s2 * inertia_.of_lag[a] * inertia_.of_lag[b];
+  for (std::size_t a = 0; a < kHeld.size(); ++a)
+    for (std::size_t b = 0; b < kHeld.size(); ++b) {
+      double of_prior = 0.0;  // kappa and e depart from their prior once, not once for each place
+      for (std::size_t i = 0; i < kTerms; ++i)
+        for (std::size_t j = 0; j < kTerms; ++j)
+          if (of_curve(i) && of_curve(j))
+            of_prior += column[a][i] * prior.normal[i * kTerms + j] * column[b][j];
+      held_.covariance[kHeld.size() * a + b] = column[a][kHeld[b]] + places * (places - 1.0) * of_prior +
+                                               surface_m2 * held_.of_surface[a] * held_.of_surface[b] +
+                                               lag_s2 * held_.of_lag[a] * held_.of_lag[b];
     }
 }
 
-// Fixes c and lambda at their estimates. A lambda that is not estimated yet keeps its prior variance.
-void ProfileSolver::hold_inertia(Information& info) const noexcept {
-  const double precision = inertia_.fitted ? 1.0 : 1.0 / (prior_.steady_drag_sd * prior_.steady_drag_sd);
-  for (std::size_t a = 0; a < kInertia.size(); ++a) {
-    const std::size_t term = kInertia[a];
-    if (!inertia_.holds(term)) continue;
+// Fixes c, lambda and e at their estimates. A lambda that is not estimated yet keeps its prior variance.
+void ProfileSolver::hold(Information& info) const noexcept {
+  const double precision = held_.fitted ? 1.0 : 1.0 / (prior_.steady_drag_sd * prior_.steady_drag_sd);
+  for (std::size_t a = 0; a < kHeld.size(); ++a) {
+    const std::size_t term = kHeld[a];
+    if (!held_.holds(term)) continue;
     for (std::size_t i = 0; i < kTerms; ++i) {
-      info.moment[i] -= inertia_.mean[a] * info.normal[i * kTerms + term];
+      info.moment[i] -= held_.mean[a] * info.normal[i * kTerms + term];
       info.normal[i * kTerms + term] = info.normal[term * kTerms + i] = 0.0;
     }
     info.normal[term * kTerms + term] = precision;
-    info.moment[term] = precision * inertia_.mean[a];
+    info.moment[term] = precision * held_.mean[a];
   }
 }
 
-// Covariance of the moment's errors by the depth and by c and lambda.
+// Covariance of the moment's errors by the depth, the strengths of the places, and c, lambda and e.
 ProfileSolver::Matrix<ProfileSolver::kTerms> ProfileSolver::moment_errors() const noexcept {
   Matrix<kTerms> errors{};
   for (std::size_t i = 0; i < kTerms; ++i)
     for (std::size_t j = 0; j < kTerms; ++j) {
-      if (inertia_.holds(i) || inertia_.holds(j)) continue;
+      if (held_.holds(i) || held_.holds(j)) continue;
       double& value = errors[i * kTerms + j];
       value = errors_.moment[i * kTerms + j];
-      for (std::size_t a = 0; a < kInertia.size(); ++a) {
-        const auto &of = inertia_.of_error[a], &with = inertia_.with_moment[a];
+      for (std::size_t a = 0; a < kHeld.size(); ++a) {
+        const auto &of = held_.of_error[a], &with = held_.with_moment[a];
         value -= with[i] * of[j] + of[i] * with[j];
-        for (std::size_t b = 0; b < kInertia.size(); ++b)
-          value += inertia_.covariance[2 * a + b] * of[i] * inertia_.of_error[b][j];
+        for (std::size_t b = 0; b < kHeld.size(); ++b)
+          value += held_.covariance[kHeld.size() * a + b] * of[i] * held_.of_error[b][j];
       }
     }
+  add_strength_errors(errors);
   return errors;
 }
 
@@ -157,12 +166,12 @@ ProfileSolver::Matrix<ProfileSolver::kTerms> ProfileSolver::shared_errors(
   Matrix<kTerms> covariance{};
   Vector<kTerms> surface{}, lag{};
   for (std::size_t i = 0; i < kTerms; ++i) {
-    if (inertia_.holds(i)) continue;
+    if (held_.holds(i)) continue;
     surface[i] = errors_.of_surface[i];
     lag[i] = errors_.of_lag[i];
-    for (std::size_t a = 0; a < kInertia.size(); ++a) {
-      surface[i] -= inertia_.of_error[a][i] * inertia_.of_surface[a];
-      lag[i] -= inertia_.of_error[a][i] * inertia_.of_lag[a];
+    for (std::size_t a = 0; a < kHeld.size(); ++a) {
+      surface[i] -= held_.of_error[a][i] * held_.of_surface[a];
+      lag[i] -= held_.of_error[a][i] * held_.of_lag[a];
     }
   }
   add_error(gain, surface, prior_.shared_surface_sd_m, covariance);

@@ -193,7 +193,8 @@ void ProfileSolver::keep(const Information& info) noexcept {
   kept_normal_ = info.normal;
   kept_moment_ = info.moment;
   kept_errors_ = errors_;
-  kept_between_ = between_;
+  kept_place_ = place_;
+  kept_strength_ = strength_;
 }
 
 }  // namespace sandhopper

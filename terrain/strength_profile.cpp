@@ -53,8 +53,12 @@ void ProfileSolver::restart() noexcept {
   kept_normal_ = {};
   kept_moment_ = {};
   kept_errors_ = errors_ = {};
-  kept_between_ = between_ = {};
-  inertia_ = {};
+  between_ = kept_place_ = place_ = {};
+  earlier_ = {};
+  place_variance_ = {};
+  kept_strength_ = strength_ = earlier_strength_ = {};
+  earlier_strength_squares_ = {};
+  held_ = {};
   begins_m_ = friction_N_ = 0.0;
   begins_of_ = {};
   posterior_ = {};
@@ -124,7 +128,7 @@ double ProfileSolver::solve_at(std::size_t point, const Information& data, Poste
   p.smoothness_m = kSmoothness_m[point / kSpreadFactor.size()];
   p.spread = prior_.stiffness_spread_relative * kSpreadFactor[point % kSpreadFactor.size()];
   const double log_prior = add_shared_prior(info, p.smoothness_m, p.spread);
-  hold_inertia(info);
+  hold(info);
   const Cholesky<kTerms> root(info.normal);
   p.mean = root.solve(info.moment);
   if (with_gain) p.gain = root.inverse();
@@ -145,10 +149,10 @@ ProfileSolver::Matrix<ProfileSolver::kTerms> ProfileSolver::covariance_of(
     for (std::size_t k = 0; k < kTerms; ++k)
       for (std::size_t j = 0; j < kTerms; ++j)
         covariance[i * kTerms + j] += product[i * kTerms + k] * gain[k * kTerms + j];
-  if (!inertia_.fitted) return covariance;
-  for (std::size_t a = 0; a < kInertia.size(); ++a)
-    for (std::size_t b = 0; b < kInertia.size(); ++b)
-      covariance[kInertia[a] * kTerms + kInertia[b]] = inertia_.covariance[2 * a + b];
+  if (!held_.fitted) return covariance;
+  for (std::size_t a = 0; a < kHeld.size(); ++a)
+    for (std::size_t b = 0; b < kHeld.size(); ++b)
+      covariance[kHeld[a] * kTerms + kHeld[b]] = held_.covariance[kHeld.size() * a + b];
   return covariance;
 }
 
@@ -200,7 +204,9 @@ void ProfileSolver::integrate(const Information& data, bool last) noexcept {
     if (weight[g] == 0.0) continue;
     solve_at(g, data, p, true);
     const Matrix<kTerms>& gain = p.gain;
-    const Matrix<kTerms> covariance = covariance_of(gain, errors), shared = shared_errors(gain);
+    Matrix<kTerms> covariance = covariance_of(gain, errors);
+    const Matrix<kTerms> shared = shared_errors(gain);
+    refer_to_mean_place(gain, covariance);
     for (std::size_t i = 0; i < gain.size(); ++i) {
       posterior_.gain[i] += weight[g] * gain[i];
       posterior_.shared[i] += weight[g] * shared[i];
@@ -283,10 +289,11 @@ ProfileSolver::Misfit ProfileSolver::misfit_with(const Misfit& stride, std::size
 
 // Depth errors become force errors through the slope. If the residuals of all strides exceed these errors at
 // a level of 1 %, the excess is attributed to the curve within the cell.
-void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept {
+void ProfileSolver::weigh_cells(const ProfileSums& sums, const Information& info, bool jumps_known) noexcept {
   constexpr double k99 = 2.326348, kAllCells99 = 3.38;  // normal quantiles for 1 % and for 1 % / 28 (all
                                                         // cells together)
   broken_cells_ = 0;
+  const auto squares = own_residuals_squared(sums, info);
   const double depth_variance = kept_errors_.variance_m2;
   for (std::size_t s = 0; s < kN; ++s) {
     const double n = sums.cells[s].observations;
@@ -294,7 +301,7 @@ void ProfileSolver::weigh_cells(const ProfileSums& sums, bool jumps_known) noexc
     const double own = cell_variance_N2(sums, s);
     const double depth_m2 = prior_.depth_noise_m * prior_.depth_noise_m + wander_m2(sums.cells[s]);
     const double expected = own + depth_m2 * slope_N_per_m_[s] * slope_N_per_m_[s];
-    const double found = own * (jumps_known ? residual_squared(sums, s) : scatter_squared(sums, s)) / n;
+    const double found = own * (jumps_known ? squares[s] : scatter_squared(sums, s)) / n;
     stride_misfit_[s] = {n, n * found, n * expected};
     const Misfit all = misfit_with(stride_misfit_[s], s);
     const double excess_N2 = (all.found_N2 - all.expected_N2) / all.observations;
@@ -318,7 +325,7 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
     return;
   }
   begin_depth_errors(stride > 1);
-  if (stride <= 1) ++places_;
+  if (stride <= 1) begin_place();
   noise_factor_.fill(1.0);
   stride_misfit_ = {};
   // Restart expectation maximisation only below the depth of the previous strides. If it continued everywhere
@@ -326,22 +333,26 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   first_cell_ = stride > 1 ? first_observed(sums) : 0;
   std::fill(jump_.begin() + static_cast<std::ptrdiff_t>(first_cell_), jump_.end(), 1.0);
   Information info;
-  inertia_ = {};
+  held_ = {};
   for (int pass = 0; pass < kPasses; ++pass) {
     if (stride <= 1) expect_contact(sums);
     info = information_of(sums);
     if (stride <= 1) depend_on_contact(info);
     subtract_mean_depth_error(info);
-    if (pass > 0) add_between(info);
+    if (pass > 0) {
+      add_between(info);
+      integrate_places();
+    }
     integrate_friction(info);
     take_depth_errors(info);
+    take_strength(info);
     add_kept(info);
-    if (pass > 0) take_inertia(info);
+    if (pass > 0) take_held(info);
     integrate(info, pass + 1 == kPasses);
     take_friction(info);
     if (pass + 1 == kPasses) take_responses(sums, info);
     take_slopes();
-    if (pass + 1 < kPasses) weigh_cells(sums, pass + 2 == kPasses);
+    if (pass + 1 < kPasses) weigh_cells(sums, info, pass + 2 == kPasses);
   }
   for (std::size_t s = 0; s < kN; ++s) misfit_[s] = misfit_with(stride_misfit_[s], s);
   end_depth_errors(info, sums);

@@ -54,15 +54,29 @@
 // because cov(X^T W y, X^T V^-1 y) = X^T W X. The prior of kappa counts once for each place there: strides of
 // one set-up differ only by their errors, and would otherwise add up what the model of the errors gets wrong.
 // As kappa departs from its prior once only, n places add n (n - 1) h^T P h to the variance.
+// e is estimated and held in the same way. In the fit of the curve, whose weights do not count what differs
+// from place to place, it would follow these differences, by twice its prior standard deviation after ten
+// places on wet ground.
+// Places prepared alike differ in strength. The curve of one of them is that of the mean place times 1 + u_1
+// + u_2 exp(-z/dz0), in its tangent stiffness: all of the ground, and a layer at its surface, such as one
+// that is wet or dry. With U the change of kappa for a unit of both and Theta = diag(var u_1, var u_2), the
+// information G of a place between strides becomes G - G U (Theta^-1 + U^T G U)^-1 U^T G. Each element of
+// Theta is integrated over a grid by its marginal likelihood. With N_p of each place and n places the error
+// of the mean is
+//   N^-1 sum N_p U u_p - U sum u_p / n
+// because the common curve is the mean of those of the places. It vanishes if all places have equal weight.
+// With one place the curve is that of the place, and U is left out.
 // The lag, and a part of d, are the same on all places: contact is detected later on soft ground and at low
 // speed. No number of strides averages them out, so S holds their products between strides.
 // A layer boundary is a jump of kappa, a crust an outlier. Therefore the innovations of kappa have Student's
 // distribution (variances by expectation maximisation), and a cell that the curve does not fit at a level of
-// 1 % over all strides gets less weight and a wider band. The band of one place includes the bed's own
-// fluctuation, which is part of its curve. From the second place of a ground prepared alike on, the curve is
-// the one common to all places; their fluctuations and the noise of their depths are noise that averages out.
-// Between strides N, m and S are kept, and f is integrated out: the posterior of a stride is the prior of the
-// next. A foot that lands in its crater begins at the depth where the previous stride ended,
+// 1 % over all strides gets less weight and a wider band. The residuals for this are those that remain after
+// the best prediction of the errors of this stride alone, of D, f and the strength of its place. The band of
+// one place includes the bed's own fluctuation, which is part of its curve. From the second place of a ground
+// prepared alike on, the curve is the one common to all places; their fluctuations and the noise of their
+// depths are noise that averages out. Between strides N, m and S are kept, and f is integrated out: the
+// posterior of a stride is the prior of the next. A foot that lands in its crater begins at the depth where
+// the previous stride ended,
 //   d of the next stride = D at the crater's deepest point + N(0, landing^2)
 // so the variance of D there and its covariance with the change of m are kept, too. All memory is bounded and
 // nothing is allocated.
@@ -213,18 +227,25 @@ class ProfileSolver {
     Matrix<kTerms> normal{};
     Vector<kTerms> moment{};
     Vector<kTerms> of_surface{}, of_lag{};  // as in DepthErrors
+    double log_likelihood = 0.0;            // of the data, up to a constant
   };
-  // c and lambda from the comparison of strides at different speeds, and their errors. Both are held in the
-  // fit of the curve. `with_moment`: Q. `of_error`: change of the curve's moment for a unit of the error.
-  static constexpr std::array<std::size_t, 2> kInertia{kAddedMass, kSteadyDrag};
-  struct Inertia {
-    std::array<double, 2> mean{};
-    Matrix<2> covariance{};
-    std::array<Vector<kTerms>, 2> with_moment{}, of_error{};
-    std::array<double, 2> of_surface{}, of_lag{};  // change for a unit of the errors that all strides share
-    bool fitted = false;  // otherwise lambda is zero and c belongs to the fit of the curve
+  static constexpr std::size_t kStrengths = 2;  // of a place
+  static constexpr std::size_t kPlaceGrid = 9;  // points of the grid of Theta
+  using PlaceTerms = std::array<Vector<kTerms>, kStrengths>;
+  // c, lambda and e from the comparison of strides at different speeds, and their errors. They are held in
+  // the fit of the curve. `with_moment`: Q. `of_error`: change of the curve's moment for a unit of the error.
+  static constexpr std::array<std::size_t, 3> kHeld{kAddedMass, kSteadyDrag, kScale};
+  struct Held {
+    std::array<double, kHeld.size()> mean{};
+    Matrix<kHeld.size()> covariance{};
+    std::array<Vector<kTerms>, kHeld.size()> with_moment{}, of_error{};
+    std::array<double, kHeld.size()> of_surface{},
+        of_lag{};  // change for a unit of the errors that all strides share
+    // Change for a unit of a strength on all places.
+    std::array<std::array<double, kStrengths>, kHeld.size()> of_strength{};
+    bool fitted = false;  // otherwise lambda is zero, and c and e belong to the fit of the curve
     bool holds(std::size_t term) const noexcept {
-      return term == kSteadyDrag || (fitted && term == kAddedMass);
+      return term == kSteadyDrag || (fitted && (term == kAddedMass || term == kScale));
     }
   };
   Information information_of(const ProfileSums& sums) const noexcept;
@@ -244,8 +265,19 @@ class ProfileSolver {
                  Matrix<kTerms>& covariance) const noexcept;
   void take_friction(const Information& information) noexcept;
   void add_between(const Information& own) noexcept;
-  void take_inertia(const Information& information) noexcept;
-  void hold_inertia(Information& information) const noexcept;
+  PlaceTerms place_shapes() const noexcept;
+  double place_variance(std::size_t point, std::size_t strength) const noexcept;
+  void add_place(const Between& place, const PlaceTerms& shapes, std::size_t point,
+                 Between& sum) const noexcept;
+  void begin_place() noexcept;
+  double log_evidence(const Between& all, const Information& prior) const noexcept;
+  void integrate_places() noexcept;
+  void take_strength(const Information& own) noexcept;
+  void add_strength_errors(Matrix<kTerms>& errors) const noexcept;
+  void refer_to_mean_place(const Matrix<kTerms>& gain, Matrix<kTerms>& covariance) const noexcept;
+  Vector<kProfileCells> own_residuals_squared(const ProfileSums& sums, const Information& own) const noexcept;
+  void take_held(const Information& information) noexcept;
+  void hold(Information& information) const noexcept;
   Matrix<kTerms> moment_errors() const noexcept;
   Matrix<kTerms> shared_errors(const Matrix<kTerms>& gain) const noexcept;
   double solve_at(std::size_t grid_point, const Information& data, Posterior& posterior,
@@ -273,7 +305,7 @@ class ProfileSolver {
   void keep(const Information& information) noexcept;
   void take_slopes() noexcept;
   void report(const ProfileSums& sums, std::uint32_t stride) noexcept;
-  void weigh_cells(const ProfileSums& sums, bool jumps_known) noexcept;
+  void weigh_cells(const ProfileSums& sums, const Information& information, bool jumps_known) noexcept;
   double cell_variance_N2(const ProfileSums& sums, std::size_t cell) const noexcept;
   std::array<double, kProfileFeatures> residual_features(std::size_t cell) const noexcept;
   double scatter_squared(const ProfileSums& sums, std::size_t cell) const noexcept;
@@ -306,8 +338,16 @@ class ProfileSolver {
   Matrix<kTerms> kept_normal_{};
   Vector<kTerms> kept_moment_{};
   DepthErrors kept_errors_{}, errors_{};  // before and after the moments of this stride
-  Between kept_between_{}, between_{};    // the same
-  Inertia inertia_{};
+  Between place_{}, kept_place_{};        // of this place with this stride, and without it; Theta is left out
+  // Of the places before at each point of the grid, and of all places in the mean over the grid.
+  std::array<Between, kPlaceGrid> earlier_{};
+  Between between_{};
+  std::array<double, kStrengths> place_variance_{};  // posterior mean of Theta; zero for one place
+  // N_p U of this place with this stride and without it; of the places before, their sum and the sum of their
+  // products with themselves.
+  PlaceTerms strength_{}, kept_strength_{}, earlier_strength_{};
+  std::array<Matrix<kTerms>, kStrengths> earlier_strength_squares_{};
+  Held held_{};
   std::size_t broken_cells_ = 0;
   std::size_t first_cell_ = 0;  // first cell of the last stride's new ground
   ReloadingPosterior reloading_;

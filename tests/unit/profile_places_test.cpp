@@ -59,6 +59,80 @@ TEST(StrengthProfile, BandOfSeveralPlacesHoldsTheirCommonCurve) {
   for (const auto& score : {line, hardens}) EXPECT_LT(score.width_relative, 0.7);
 }
 
+// The depth error of a stride, its joint friction and the strength of its place belong to that stride. They
+// are no curve that varies within a cell. With a depth error of two standard deviations, taken for such a
+// curve, the band of two places was twice as wide.
+TEST(StrengthProfile, AStridesOwnErrorIsNoMisfitOfTheCells) {
+  constexpr double kDepth_m = 0.030;
+  const auto sd_with = [&](double too_deep_m, double stronger) {
+    ProfileSolver solver(without_steady_drag());
+    const auto curve = [&](double z) { return (1.0 + stronger) * line_N(z); };
+    solver.add(sums_of(line_N, {.seed = 1, .contact = true}), 1);
+    solver.add(sums_of(curve, {.too_deep_m = too_deep_m, .seed = 2, .contact = true}),
+               ProfileSolver::kFreshGround);
+    return solver.force_N(kDepth_m).sd;
+  };
+  const double alike = sd_with(0.0, 0.0);
+  for (const double sd : {sd_with(0.001, 0.0), sd_with(0.0, 0.06)}) {
+    EXPECT_GT(sd, 0.7 * alike);
+    EXPECT_LT(sd, 1.4 * alike);
+  }
+}
+
+// Places of different strength: the band of the common curve counts how different they are, and the strengths
+// are not taken for a drag or an error of the force scale.
+TEST(StrengthProfile, TheSpreadBetweenPlacesIsFoundFromTheStrides) {
+  constexpr double kDepth_m = 0.030;
+  struct Found {
+    double inside = 0.0, sd_N = 0.0;
+  };
+  const auto found_with = [&](double spread) {
+    constexpr unsigned kSessions = 20, kPlaces = 8;
+    std::mt19937 engine(7);
+    std::normal_distribution<double> normal;
+    Found found;
+    for (unsigned session = 0; session < kSessions; ++session) {
+      ProfileSolver solver{StiffnessConfig{}};
+      double mean = 0.0;
+      for (unsigned place = 0; place < kPlaces; ++place) {
+        const double strength = 1.0 + spread * normal(engine);
+        mean += strength / kPlaces;
+        const auto curve = [&](double z) { return strength * line_N(z); };
+        solver.add(sums_of(curve, {.speed_mps = 0.4 + 0.1 * place,
+                                   .to_m = 0.020 + 0.004 * place,
+                                   .seed = kPlaces * session + place,
+                                   .contact = true}),
+                   place == 0 ? 1 : ProfileSolver::kFreshGround);
+      }
+      const auto force = solver.force_N(kDepth_m);
+      const double true_N = mean * line_N(kDepth_m);
+      found.inside += (force.low() < true_N && true_N < force.high()) / static_cast<double>(kSessions);
+      found.sd_N += force.sd / kSessions;
+    }
+    return found;
+  };
+  const Found alike = found_with(0.0), different = found_with(0.10);
+  EXPECT_GE(alike.inside, 0.85);
+  EXPECT_GE(different.inside, 0.85);
+  EXPECT_GT(different.sd_N, 1.3 * alike.sd_N);
+  EXPECT_LT(different.sd_N, 5.0 * alike.sd_N);
+}
+
+// The curve of one place is that of the place, however different others may be.
+TEST(StrengthProfile, TheBandOfOnePlaceDoesNotDependOnTheSpreadBetweenPlaces) {
+  const auto sd_with = [](double spread, unsigned places) {
+    StiffnessConfig config;
+    config.profile = ProfileConfig{.place_strength_sd_relative = spread};
+    ProfileSolver solver(config);
+    for (unsigned place = 0; place < places; ++place)
+      solver.add(sums_of(line_N, {.to_m = 0.045 - 0.015 * place, .seed = place + 1}),
+                 place == 0 ? 1 : ProfileSolver::kFreshGround);
+    return solver.force_N(0.040).sd;
+  };
+  EXPECT_EQ(sd_with(0.3, 1), sd_with(0.001, 1));
+  EXPECT_GT(sd_with(0.3, 2), 1.1 * sd_with(0.001, 2));
+}
+
 // A drag that does not fade with depth has the form of a curve in a stride. The band of a fast stride counts
 // it, that of a slow one hardly, and that of many strides of one set-up counts that it is the same in all.
 TEST(StrengthProfile, DragThatStaysAtDepthIsNoStrength) {

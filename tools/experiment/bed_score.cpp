@@ -210,8 +210,10 @@ WorldConfig ground_of(const BedScoreSetup& setup, long number) {
   return on_drawn_ground(setup.world, setup.ground, seed_of(setup, number));
 }
 
+// One robot hops on all places of a ground.
 BedTrial trial_on(const BedScoreSetup& setup, const BedCase& bed, long number, long ground, int strides) {
-  return run_bed_trial(setup.cycle, ground_of(setup, ground), bed, seed_of(setup, number), strides);
+  return run_bed_trial(setup.cycle, ground_of(setup, ground), bed, seed_of(setup, number), strides,
+                       seed_of(setup, ground));
 }
 
 // First strides of `places` places on one ground. A trial without a stride is repeated once at most.

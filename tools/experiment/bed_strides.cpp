@@ -94,7 +94,7 @@ WorldConfig with_drop_scatter(WorldConfig world) {
 }
 
 BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config, const BedCase& bed,
-                       std::uint64_t seed, int strides) {
+                       std::uint64_t seed, int strides, std::optional<std::uint64_t> robot_seed) {
   const auto& cells = hop_cells();
   const auto& cell = cells[(seed - 1) % cells.size()];
   CycleConfig cycle = base;
@@ -105,8 +105,10 @@ BedTrial run_bed_trial(const CycleConfig& base, const WorldConfig& world_config,
   BedTrial trial;
   trial.truth = bed_truth_of(TrialDraw(world, {.seed = seed, .noise = true, .start_ns = 0}).bed());
   bool touched = false;
-  HoppedCycles hop(cycle, world, {.release_height_m = cell.release_height_m, .seed = seed, .noise = true},
-                   kHang_cycles);
+  HoppedCycles hop(
+      cycle, world,
+      {.release_height_m = cell.release_height_m, .seed = seed, .noise = true, .robot_seed = robot_seed},
+      kHang_cycles);
   DepthErrorRecorder errors(cycle.stiffness.joint.fluctuation_length_m, trial.depth_errors);
   double crater_m = 0.0;
   std::optional<double> new_ground_error_m;

@@ -51,8 +51,9 @@ struct BedTrial {
 WorldConfig with_drop_scatter(WorldConfig world);
 
 // Runs trial number `seed` - 1 of a case. Its set-up cycles through hop_cells(). Ends after `strides`
-// strides, or when the robot does not lift off again.
+// strides, or when the robot does not lift off again. Trials with one `robot_seed` are those of one robot; by
+// default each trial has its own.
 BedTrial run_bed_trial(const CycleConfig& cycle, const WorldConfig& world, const BedCase& bed,
-                       std::uint64_t seed, int strides);
+                       std::uint64_t seed, int strides, std::optional<std::uint64_t> robot_seed = {});
 
 }  // namespace sandhopper
