@@ -16,9 +16,9 @@ struct ProfileConfig {
   // Standard deviation of the steady drag coefficient lambda (bed.hpp). The believed bed has none; drag that
   // persists at depth is in doubt, and values up to 1 are reported.
   double steady_drag_sd = 0.5;
-  // Expected spread of the strength between places prepared alike, of the whole curve and of the layer at the
-  // surface: 3 % between trials on poured glass beads. The real ones are integrated over a grid from a
-  // quarter to four times this value, 0.75 to 12 %.
+  // Standard deviation of the strength between places prepared alike: 3 % between trials on poured glass
+  // beads. That of the layer at the surface is integrated over a grid from a quarter to four times this
+  // value.
   double place_strength_sd_relative = 0.03;
   // Depth at contact (strength_profile.hpp). The mean force at which contact is found is less than the
   // threshold by `contact_early_N`, because the first of several noisy samples exceeds it. The depth belongs

@@ -8,17 +8,13 @@
 namespace sandhopper {
 namespace {
 
-// Standard deviation of a strength, relative to the configured one, and its prior probability: Gauss-Hermite
-// quadrature of three points for a log-normal prior with the median 1 and a factor of 4 at root 3 deviations.
-// The two strengths have their own.
+// Standard deviation of the strength at the surface, relative to the configured one, and its prior
+// probability: Gauss-Hermite quadrature of three points for a log-normal prior with the median 1 and a factor
+// of 4 at root 3 deviations. That of the whole curve is the configured one: with a prior as wide, a depth
+// that only one place has reached would be less known with two places than with one.
 constexpr std::array<double, 3> kPlaceFactor{0.25, 1.0, 4.0};
 constexpr std::array<double, 3> kPlaceWeight{1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
 constexpr double kNegligible = 1e-3;  // weight of a grid point that is left out
-
-double log_place_prior(std::size_t point) noexcept {
-  constexpr std::size_t kFactors = kPlaceFactor.size();
-  return std::log(kPlaceWeight[point / kFactors] * kPlaceWeight[point % kFactors]);
-}
 
 double along(const std::array<double, ProfileSolver::kTerms>& a,
              const std::array<double, ProfileSolver::kTerms>& b) noexcept {
@@ -40,10 +36,8 @@ ProfileSolver::PlaceTerms ProfileSolver::place_shapes() const noexcept {
 }
 
 double ProfileSolver::place_variance(std::size_t point, std::size_t strength) const noexcept {
-  constexpr std::size_t kFactors = kPlaceFactor.size();
-  static_assert(kPlaceGrid == kFactors * kFactors && kStrengths == 2);
-  const std::size_t at = strength == 0 ? point / kFactors : point % kFactors;
-  const double sd = prior_.place_strength_sd_relative * kPlaceFactor[at];
+  static_assert(kPlaceGrid == kPlaceFactor.size() && kStrengths == 2);
+  const double sd = prior_.place_strength_sd_relative * (strength == 0 ? 1.0 : kPlaceFactor[point]);
   return sd * sd;
 }
 
@@ -133,7 +127,7 @@ void ProfileSolver::integrate_places() noexcept {
   };
   std::array<double, kPlaceGrid> weight{};
   for (std::size_t g = 0; g < kPlaceGrid; ++g)
-    weight[g] = log_evidence(all_at(g), prior) + log_place_prior(g);
+    weight[g] = log_evidence(all_at(g), prior) + std::log(kPlaceWeight[g]);
   const double best = *std::ranges::max_element(weight);
   double total = 0.0;
   for (double& w : weight) {

@@ -230,7 +230,7 @@ class ProfileSolver {
     double log_likelihood = 0.0;            // of the data, up to a constant
   };
   static constexpr std::size_t kStrengths = 2;  // of a place
-  static constexpr std::size_t kPlaceGrid = 9;  // points of the grid of Theta
+  static constexpr std::size_t kPlaceGrid = 3;  // points of the grid of Theta
   using PlaceTerms = std::array<Vector<kTerms>, kStrengths>;
   // c, lambda and e from the comparison of strides at different speeds, and their errors. They are held in
   // the fit of the curve. `with_moment`: Q. `of_error`: change of the curve's moment for a unit of the error.
