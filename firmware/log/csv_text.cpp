@@ -41,6 +41,15 @@ constexpr std::array kMagic{
     Magic{"\x28\xB5\x2F\xFD"sv, {"compressed (.zst)", "unpack it with unzstd and name the table inside"}},
     Magic{"#ROSBAG V"sv,
           {"a ROS 1 bag", "write the topic as a table: rostopic echo -b FILE -p /TOPIC > FILE.csv"}},
+    Magic{
+        "LOGG"sv,
+        {"a Vector BLF log of CAN frames",
+         "for the drives' replies: hop replay --can FILE says how to convert it; for signals: export them as "
+         "CSV from the program that has their DBC file"}},
+    Magic{"MDF     "sv,
+          {"an ASAM MDF file (.mf4, .dat)",
+           "export its signals as CSV: pip install asammdf, then asammdf's mdf.export('csv', "
+           "filename='FILE.csv')"}},
     Magic{"SQLite format 3"sv,
           {"a database (SQLite, or a ROS 2 bag)", "write the topic as a table and name it"}},
     Magic{"\x93NUMPY"sv,

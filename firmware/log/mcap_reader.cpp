@@ -21,7 +21,9 @@ constexpr std::array kOtherFormats{
     OtherFormat{"\x04\x22\x4d\x18"sv, "it is compressed with lz4 as a whole: lz4 -d FILE OTHER.mcap"},
     OtherFormat{"\x1f\x8b"sv, "it is compressed with gzip as a whole: gunzip FILE"},
     OtherFormat{"SQLite format 3"sv, "it is a rosbag2 of the sqlite3 kind: mcap convert FILE OTHER.mcap"},
-    OtherFormat{"#ROSBAG V2"sv, "it is a bag of ROS 1: mcap convert FILE OTHER.mcap"}};
+    OtherFormat{"#ROSBAG V2"sv, "it is a bag of ROS 1: mcap convert FILE OTHER.mcap"},
+    OtherFormat{"LOGG"sv,
+                "it is a Vector BLF log of CAN frames: hop replay --can FILE says how to convert it"}};
 
 std::string first_bytes_are(Bytes file) {
   for (const auto& other : kOtherFormats)

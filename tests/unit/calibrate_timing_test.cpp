@@ -221,6 +221,20 @@ ForeignRecording with_step(const Recording& recording, double at_s, double step_
   return foreign;
 }
 
+TEST(CalibrateTiming, AFastForeignClockIsRefusedAsDriftNotAsAStep) {
+  const auto recording = tap(1);
+  for (const double drift : {0.01, -0.01, 0.015}) {
+    auto foreign = foreign_of({1000.0, 3.2174, drift, 1, 1e-9 * static_cast<double>(recording.begin_ns)});
+    const auto outcome = fit(recording, foreign).outcome;
+    ASSERT_EQ(reasons(outcome), "clock_drifts") << drift;
+    EXPECT_THAT(outcome.refusals.front().text,
+                ::testing::HasSubstr(
+                    fmt::format("runs {:.2f} % {}", 1e2 * std::abs(drift), drift > 0.0 ? "fast" : "slow")));
+    for (auto& t : foreign.signal.time_s) t /= 1.0 + drift;
+    EXPECT_EQ(reasons(fit(recording, foreign).outcome), "") << "the factor is the cure";
+  }
+}
+
 TEST(CalibrateTiming, AForeignClockThatStepsIsRefusedWithItsStep) {
   const auto recording = tap(1);
   for (const double step_s : {0.004, 0.2, 37.0, -0.004})

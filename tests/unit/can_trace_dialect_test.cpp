@@ -109,6 +109,20 @@ TEST_F(Formats, CandumpWithoutLIsConvertedByTheLineGiven) {
   }
 }
 
+TEST_F(Formats, ACommaInTheTimesIsConvertedByTheLineGiven) {
+  const auto format = of("(1700000000,000260) can0 011#0180006668384600\n");
+  ASSERT_TRUE(format);
+  EXPECT_EQ(converted(*format), kOneFrame);
+}
+
+TEST_F(Formats, AnSlcanDumpIsConvertedByTheLineGiven) {
+  const auto format = of("t011801800066683846000001\rT000000113018006EA5E\rt01100002\r");
+  ASSERT_TRUE(format);
+  EXPECT_EQ(converted(*format),
+            "(0.001000) can0 011#0180006668384600\n(59.998000) can0 00000011#018006\n(60.002000) can0 011#\n")
+      << "the milliseconds of a minute begin again";
+}
+
 TEST_F(Formats, PythonCansPrintedMessagesAreConvertedByTheLineGiven) {
   const auto format = of(
       "Timestamp: 1700000000.000260    ID: 011    S Rx                DL:  8    01 80 00 66 68 38 46 00     "

@@ -43,7 +43,7 @@ TEST(CanTraceRecorder, OtherLinesAreNoLoss) {
 
 TEST(CanTraceRecorder, CanFdFramesOfAMotorAreNotThoseOfOtherNodes) {
   TraceText trace;
-  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).line(i * kMs + kReply, "011##10180006668384600");
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).line(i * kMs + kReply, "011##10180007FF8384600");
   trace.line(0.1, "123##1AABB");
   const auto report = trace.report();
   EXPECT_THAT(text_of(report, "fd_frames_of_motors"),
@@ -55,7 +55,7 @@ TEST(CanTraceRecorder, CanFdFramesOfAMotorAreNotThoseOfOtherNodes) {
 TEST(CanTraceRecorder, ATraceOfCanFdFramesAloneIsNamed) {
   TraceText trace;
   for (int i = 0; i < 20; ++i)
-    trace.line(i * kMs, "001##180008000A3199800").line(i * kMs + kReply, "011##10180006668384600");
+    trace.line(i * kMs, "001##180008000A3199800").line(i * kMs + kReply, "011##10180007FF8384600");
   const auto report = trace.report();
   EXPECT_EQ(report.fd_frames, 40U);
   EXPECT_THAT(text_of(report, "fd_frames_of_motors"), HasSubstr("20 on 001 of motor left"));
@@ -64,7 +64,7 @@ TEST(CanTraceRecorder, ATraceOfCanFdFramesAloneIsNamed) {
 TEST(CanTraceRecorder, ExtendedIdentifiersOfTheMotorsNumbersAreNamed) {
   TraceText trace;
   for (int i = 0; i < 20; ++i)
-    trace.line(i * kMs, "00000001#80008000A3199800").line(i * kMs + kReply, "00000011#0180006668384600");
+    trace.line(i * kMs, "00000001#80008000A3199800").line(i * kMs + kReply, "00000011#0180007FF8384600");
   const auto report = trace.report();
   EXPECT_THAT(text_of(report, "extended_identifiers"),
               AllOf(HasSubstr("20 on 00000011 for 011 of motor left"), HasSubstr("sed -E")));
@@ -95,7 +95,7 @@ TEST(CanTraceRecorder, MicrosecondsWithoutLeadingZerosAreNamed) {
   TraceText unpadded;
   for (int i = 0; i < 40; ++i) {
     unpadded.raw(fmt::format("(1700000000.{}) can0 001#80008000A3199800\n", i * 1000));
-    unpadded.raw(fmt::format("(1700000000.{}) can0 011#0180006668384600\n", i * 1000 + 260));
+    unpadded.raw(fmt::format("(1700000000.{}) can0 011#0180007FF8384600\n", i * 1000 + 260));
   }
   const auto report = unpadded.report();
   EXPECT_THAT(text_of(report, "unpadded_times"),
@@ -108,7 +108,7 @@ TEST(CanTraceRecorder, TimesWithoutTheirLastZerosAreRight) {
   TraceText trimmed;
   for (int i = 0; i < 40; ++i) {
     trimmed.raw(fmt::format("({}) can0 001#80008000A3199800\n", 1.5 + i * 1e-3));
-    trimmed.raw(fmt::format("({}) can0 011#0180006668384600\n", 1.5 + i * 1e-3 + 0.26e-3));
+    trimmed.raw(fmt::format("({}) can0 011#0180007FF8384600\n", 1.5 + i * 1e-3 + 0.26e-3));
   }
   EXPECT_TRUE(trimmed.report().trusted()) << ::testing::PrintToString(kinds(trimmed.report()));
 }

@@ -68,12 +68,6 @@ TEST(CanTraceSpeed, ASoundDriveIsNotDoubted) {
         << drive.amplitude_rad << " rad, " << drive.late_s << " s late, " << drive.noise_radps << " rad/s";
 }
 
-TEST(CanTraceSpeed, APositionThatStandsIsNotCompared) {
-  TraceText trace;
-  for (int i = 0; i < 60; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply, 1);
-  EXPECT_TRUE(trace.report().trusted()) << "its speed is -10 rad/s, its position stands";
-}
-
 TEST(CanTraceSpeed, ATemperatureAtWhichTheRobotStopsIsNamed) {
   const auto hot = trace_of({.temperature_code = 0xFF}).report();
   EXPECT_THAT(text_of(hot, "motor_hot"),

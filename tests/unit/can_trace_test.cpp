@@ -112,7 +112,7 @@ TEST(CanTrace, CopiesCountOnceWhateverTheirInterface) {
     for (int i = 0; i < 20; ++i)
       trace.command(i * kMs, 1)
           .reply(i * kMs + kReply, 1)
-          .line(i * kMs + kReply, "011#0180006668384600", second);
+          .line(i * kMs + kReply, "011#0180007FF8384600", second);
     const auto report = trace.report();
     EXPECT_EQ(report.decoded.size(), 20U);
     EXPECT_EQ(report.motors[0].doubled, 20U);
@@ -161,7 +161,7 @@ TEST(CanTrace, ErrorFramesAreNamed) {
 
 TEST(CanTrace, DriveFaultsHaveNames) {
   TraceText trace;
-  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).line(i * kMs + kReply, "011#0180006668384604");
+  for (int i = 0; i < 20; ++i) trace.command(i * kMs, 1).line(i * kMs + kReply, "011#0180007FF8384604");
   const auto report = trace.report();
   EXPECT_THAT(text_of(report, "drive_fault"),
               AllOf(HasSubstr("under-voltage (code 4)"), HasSubstr("20 of 20")));
@@ -188,9 +188,9 @@ TEST(CanTrace, FramesOfOtherNodesAreCountedByIdentifier) {
 TEST(CanTrace, TheSameMotorOnTwoBusesIsNotMixed) {
   TraceText trace;
   for (int i = 0; i < 20; ++i) {
-    trace.line(i * kMs, "001#80008000A3199800").line(i * kMs + kReply, "011#0180006668384600");
+    trace.line(i * kMs, "001#80008000A3199800").line(i * kMs + kReply, "011#0180007FF8384600");
     trace.line(i * kMs + 0.1e-3, "001#90008000A3199800", "can1");
-    trace.line(i * kMs + 0.36e-3, "011#0190006668384600", "can1");
+    trace.line(i * kMs + 0.36e-3, "011#0190007FF8384600", "can1");
   }
   EXPECT_THAT(text_of(trace.report(), "several_interfaces"), HasSubstr("--bus can0"));
   CanReplaySetup one;

@@ -35,7 +35,7 @@ class TraceText {
     return line(t_s, fmt::format("{:03X}#{:04X}8000A3199800", drive, position));
   }
   TraceText& reply(double t_s, int drive, unsigned position = 0x8000, int id = 0x11) {
-    return line(t_s, fmt::format("{:03X}#{:02X}{:04X}66683846{:02X}", id, drive, position, 0));
+    return line(t_s, fmt::format("{:03X}#{:02X}{:04X}7FF83846{:02X}", id, drive, position, 0));
   }
 
   // Writes the text to a file of this process, replays it and removes it.

@@ -332,7 +332,8 @@ TEST(ForeignTable, BinaryFilesAreNamedWithTheWayOut) {
        {std::pair{std::string("PK\x03\x04") + std::string(40, '\0'), "xlsx"},
         std::pair{std::string("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1") + std::string(40, '\1'), ".xls"},
         std::pair{std::string("\x89HDF\r\n\x1A\n more"), "HDF5"},
-        std::pair{std::string("PAR1xxxx"), "Parquet"}}) {
+        std::pair{std::string("PAR1xxxx"), "Parquet"}, std::pair{std::string("LOGG\x90"), "BLF"},
+        std::pair{std::string("MDF     4.10"), "ASAM MDF"}}) {
     const auto recording = read(bytes);
     EXPECT_FALSE(recording.usable());
     ASSERT_EQ(recording.findings.size(), 1U) << told(recording);

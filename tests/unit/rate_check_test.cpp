@@ -44,6 +44,18 @@ TEST(Rates, ASpeedInAnotherUnitIsFoundClippedOrNot) {
   }
 }
 
+TEST(Rates, ASpeedOfTheOtherSideOfAGearIsFoundAndAGainErrorIsNot) {
+  for (const double ratio : {2.0, 3.0, 0.5, 1.0 / 3.0}) {
+    const auto told = read_campaign(kHead, chirp(ratio, 1e9));
+    EXPECT_FALSE(told.recording.usable()) << ratio;
+    EXPECT_THAT(told.text, HasSubstr("of a gear side")) << ratio;
+  }
+  for (const double gain : {0.9, 1.1, 1.5, 1.8, 2.2}) {
+    const auto told = read_campaign(kHead, chirp(gain, 1e9));
+    EXPECT_TRUE(told.recording.usable()) << told.text;
+  }
+}
+
 // A commanded speed is flat at its largest value without being clipped.
 TEST(Rates, AnEvenStrokeInAnotherUnitIsFound) {
   std::string csv = "t_s,position_rad,velocity_radps\n";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "terrain/trial_statistics.hpp"
+#include "tools/calibrate/line.hpp"
 
 namespace sandhopper::calibrate {
 namespace {
@@ -45,6 +46,13 @@ std::vector<double> without(const std::vector<double>& all, const std::vector<do
   for (const double value : all)
     if (std::ranges::find(some, value) == some.end()) out.push_back(value);
   return out;
+}
+
+// Even taps lie on a line whatever their interval is.
+bool is_even(std::span<const double> taps_s) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < taps_s.size(); ++i) numbers.push_back(static_cast<double>(i));
+  return fit_line(numbers, taps_s, 0.0).largest_residual < kSameTap_s;
 }
 
 }  // namespace
@@ -93,6 +101,32 @@ std::optional<ClockStep> step_in_offsets(std::span<const double> foreign_s, std:
     largest = ci95 > 0.0 ? std::abs(fit(2)) / ci95 : largest;
     best = ClockStep{-fit(2), foreign_s[split - 1], foreign_s[split]};
   }
+  return best;
+}
+
+std::optional<ClockDrift> drift_between_taps(const std::vector<double>& taps_s,
+                                             const std::vector<double>& foreign_s, double least_s) {
+  constexpr std::size_t kFewestTaps = 5;
+  std::optional<ClockDrift> best;
+  const auto most = std::min(taps_s.size(), foreign_s.size());
+  if (most < kFewestTaps) return std::nullopt;
+  // The shorter list is a part of the longer one, or both overlap.
+  for (std::size_t ours = 0; ours < taps_s.size(); ++ours)
+    for (std::size_t theirs = 0; theirs < foreign_s.size(); ++theirs) {
+      if (ours > 0 && theirs > 0) continue;
+      const auto count = std::min(taps_s.size() - ours, foreign_s.size() - theirs);
+      if (count < kFewestTaps || 2 * count <= most) continue;
+      const std::span there(foreign_s.data() + theirs, count);
+      std::vector<double> offsets;
+      for (std::size_t i = 0; i < count; ++i) offsets.push_back(taps_s[ours + i] - there[i]);
+      const auto line = fit_line(there, offsets, 0.0);
+      const double apart_s = std::abs(line.slope) * (there.back() - there.front());
+      if (line.largest_residual >= kSameTap_s || std::abs(line.slope) <= line.slope_ci95) continue;
+      if (apart_s <= kSameTap_s || step_in_offsets(there, offsets, least_s)) continue;
+      if (is_even(there) && apart_s > kSameTap_s * static_cast<double>(count - 1)) continue;
+      if (best && best->residual_s <= line.largest_residual) continue;
+      best = ClockDrift{1.0 / (1.0 + line.slope) - 1.0, line.largest_residual, count};
+    }
   return best;
 }
 

@@ -141,13 +141,24 @@ Refusal refusal_of(const ClockStep& step, const std::string& name) {
       "alone"};
 }
 
+Refusal refusal_of(const ClockDrift& drift, const std::string& name) {
+  return {"clock_drifts",
+          fmt::format("the clock of {} runs {:.2f} % {}: the time between its taps is {} by the same share, "
+                      "{} taps within {:.1f} ms",
+                      name, 1e2 * std::abs(drift.fast), drift.fast > 0.0 ? "fast" : "slow",
+                      drift.fast > 0.0 ? "longer" : "shorter", drift.taps, 1e3 * drift.residual_s),
+          fmt::format("multiply its t_s by {:.6f} and calibrate again; if it counts rows, its true rate is "
+                      "not the stated one",
+                      1.0 / (1.0 + drift.fast))};
+}
+
 TapTimes times_of(const std::vector<double>& taps, const Series& signal) {
   return {taps, signal.time_s.front(), signal.time_s.back()};
 }
 
 // The offset at which the foreign taps coincide with ours, or a refusal.
 std::optional<double> coarse_offset(const TapTimes& ours, const ForeignRecording& foreign,
-                                    std::vector<Refusal>& refusals) {
+                                    double least_step_s, std::vector<Refusal>& refusals) {
   std::vector<Refusal> refused;
   const auto taps = find_taps(foreign.signal, {kFewestTaps, foreign.name}, refused);
   const auto theirs = foreign.signal.time_s.empty() ? TapTimes{} : times_of(taps, foreign.signal);
@@ -162,7 +173,13 @@ std::optional<double> coarse_offset(const TapTimes& ours, const ForeignRecording
     }
   refusals.insert(refusals.end(), refused.begin(), refused.end());
   if (!refused.empty()) return std::nullopt;
-  if (const auto step = step_between_taps(ours.tap_s, taps)) {
+  const auto step = step_between_taps(ours.tap_s, taps);
+  if (step || alignments.empty())
+    if (const auto drift = drift_between_taps(ours.tap_s, taps, least_step_s)) {
+      refusals.push_back(refusal_of(*drift, foreign.name));
+      return std::nullopt;
+    }
+  if (step) {
     refusals.push_back(refusal_of(*step, foreign.name));
     return std::nullopt;
   }
@@ -180,7 +197,8 @@ std::optional<double> coarse_offset(const TapTimes& ours, const ForeignRecording
 void calibrate_clock(const Series& reference, const std::vector<double>& taps, const TimingSetup& setup,
                      std::optional<ForeignClock>& clock, Outcome& out) {
   const auto& foreign = *setup.foreign;
-  const auto offset = coarse_offset(times_of(taps, reference), foreign, out.refusals);
+  const auto offset =
+      coarse_offset(times_of(taps, reference), foreign, setup.max_foreign_ci95_s, out.refusals);
   if (!offset) return;
   std::vector<Refusal> known;
   const auto their_taps = find_taps(foreign.signal, {kFewestTaps, foreign.name}, known);

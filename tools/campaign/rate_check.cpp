@@ -62,7 +62,15 @@ constexpr std::array kKnown{
     Known{1.0 / 0.3048, "3.28: the speed in ft/s"},
     Known{0.3048, "0.305: the position in ft"},
     Known{3.6, "3.6: the speed in km/h"},
-    Known{60.0, "60: the time in minutes, or the speed per minute"}};
+    Known{60.0, "60: the time in minutes, or the speed per minute"},
+    Known{2.0, "2: the speed of a gear side that turns twice as fast, or a time twice as long"},
+    Known{0.5, "0.5: the position of a gear side that turns twice as fast, or a time half as long"},
+    Known{3.0, "3: the speed of a gear side that turns three times as fast, or a time three times as long"},
+    Known{1.0 / 3.0,
+          "0.333: the position of a gear side that turns three times as fast, or a time a third as long"}};
+
+// A ratio that a time of another scale explains as well as a gear does.
+bool is_of_gear(const Known& known) { return known.text.find("gear") != std::string_view::npos; }
 
 class RateChecker {
  public:
@@ -160,6 +168,8 @@ class RateChecker {
     const bool doubt_both = x->in_file == v->in_file;
     if (doubt_both || !v->in_file) take(*v, 1.0 / size);
     if (doubt_both || !x->in_file) take(*x, size);
+    const auto* time = places_.column_of("t_s");
+    if (unit != nullptr && is_of_gear(*unit) && time != nullptr && !time->in_file) take(*time, 1.0 / size);
     return fmt::format("write {} into [columns]{}", fmt::join(ways, ", or "),
                        ways.size() > 1 ? ", whichever is true" : "");
   }

@@ -11,6 +11,8 @@
 #include "tools/campaign/gravity_check.hpp"
 #include "tools/campaign/held_heights.hpp"
 #include "tools/campaign/hopper_check.hpp"
+#include "tools/campaign/hopper_force_check.hpp"
+#include "tools/campaign/hopper_height_check.hpp"
 #include "tools/campaign/interpolated_samples.hpp"
 #include "tools/campaign/lost_forces.hpp"
 #include "tools/campaign/lost_frames.hpp"
@@ -46,6 +48,8 @@ void check_samples(TrialRecording& recording, const Campaign& campaign, const Ca
   check_hopper(recording, campaign, trial, places);
   if (!check_fall_acceleration(recording, campaign, trial, places))
     check_signs(recording, campaign, trial, places);
+  check_hopper_heights(recording, campaign, trial, places);
+  check_hopper_forces(recording, campaign, trial, places);
   const double surface_m = check_surface_onset(recording, campaign, trial, places);
   check_surface(recording, campaign, trial, places, surface_m);
   check_value_steps(recording, places);

@@ -21,6 +21,21 @@ std::vector<double> without_gravity(const TrialRecording& in) {
   return out;
 }
 
+// The load cell's samples in the rows in which its force acted, earlier than the rows that hold them by its
+// stated latency.
+std::vector<double> cell_forces_N(const TrialRecording& in, double latency_s) {
+  const auto force = in.channel("load_cell_force_N");
+  std::vector<double> out(force.begin(), force.end());
+  if (latency_s <= 0.0 || in.rows() < 2) return out;
+  const double half_row_s = 0.5 * (in.t_s.back() - in.t_s.front()) / static_cast<double>(in.rows() - 1);
+  std::size_t from = 0;
+  for (std::size_t row = 0; row < in.rows(); ++row) {
+    while (from < in.rows() && in.t_s[from] + half_row_s < in.t_s[row] + latency_s) ++from;
+    out[row] = from < in.rows() ? force[from] : NAN;
+  }
+  return out;
+}
+
 // Reading of the load cell in the air before first contact: a tare that was not subtracted.
 double offset_in_air_N(std::span<const double> force_N, const SmoothMotion& motion, std::size_t first_row) {
   constexpr double kClear_m = 1e-3;
@@ -79,7 +94,7 @@ std::optional<MeasuredStride> measured_stride(const CampaignTrial& trial, const 
   const auto accel = without_gravity(in);
   const auto motion = smooth_motion(in.t_s, in.channel("mocap_foot_z_m"), accel, noise);
   const auto* phase = in.find("phase");
-  const auto force = in.channel("load_cell_force_N");
+  const auto force = cell_forces_N(in, belief.sensors.other.load_cell_latency_s);
 
   MeasuredStride out;
   out.phases_known = phase != nullptr;

@@ -7,7 +7,8 @@
 namespace sandhopper {
 
 // First stance as measured by load cell and camera, in the form of the firmware's estimates, so that the same
-// windows and fits apply. Contact force and direct force are the load cell's. Depth and speed come from
+// windows and fits apply. Contact force and direct force are the load cell's, without its stated latency
+// (sensors.load_cell_latency_s). Depth and speed come from
 // motion capture smoothed with the foot's accelerometer (estimation/motion_smoother.hpp).
 struct MeasuredStride {
   RecordedStride stride;  // one sample per row from `first_row` on

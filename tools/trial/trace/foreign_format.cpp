@@ -39,6 +39,10 @@ constexpr std::array kMagics{
     Magic{"LOGG"sv, "a Vector BLF log", kPythonCan},
     Magic{"MDF     "sv, "an ASAM MDF file", kPythonCanOfToday},
     Magic{"SQLite format 3"sv, "a database of python-can", kPythonCan},
+    Magic{"#ROSBAG V"sv, "a bag of ROS 1",
+          "play it into a virtual bus with topic_to_socketcan_node of socketcan_bridge, and record that: "
+          "candump "
+          "-L vcan0 > '{1}'"},
     Magic{";$FILEVERSION="sv, "a PEAK trace", kPythonCan},
     Magic{"\x89MCAP"sv, "an MCAP log", "replay it without --can: hop replay '{0}'"},
     Magic{"\x0a\x0d\x0d\x0a"sv, "a packet capture (pcapng)", kCapture},
@@ -73,6 +77,14 @@ constexpr const char* kPrinted =
     "\" "
     "id d }}' '{0}' > '{1}'";
 
+// tIIILDD... or TIIIIIIIILDD... with the milliseconds of a minute as four digits behind the data; each frame
+// ends with a carriage return.
+constexpr const char* kSlcan =
+    "perl -015 -ne 'next unless /^(?:t(\\w{{3}})|T(\\w{{8}}))(\\d)(\\w*)/; ($i, $n, $d) = (uc($1 // $2), $3, "
+    "$4); $t = hex(substr($d, 2 * $n, 4)); $w += 60000 if defined $l && $t < $l; $l = $t; "
+    "printf(\"(%d.%03d000) can0 %s#%s\\n\", ($w + $t) / 1000, ($w + $t) % 1000, $i, uc(substr($d, 0, 2 * "
+    "$n)))' '{0}' > '{1}'";
+
 struct Pattern {
   const char* regex;  // matches a line
   const char* what;
@@ -93,7 +105,12 @@ constexpr std::array kPatterns{
     Pattern{R"(^Timestamp:\s+[0-9.]+\s+ID:\s+[0-9a-fA-F]+.*DL:.*)", "python-can's printed messages",
             kPrinted},
     Pattern{R"(^Time Stamp,ID,Extended,.*)", "a CSV file of SavvyCAN",
-            "open it in SavvyCAN and save it as \"Linux candump\" under '{1}'"}};
+            "open it in SavvyCAN and save it as \"Linux candump\" under '{1}'"},
+    Pattern{R"(^\([0-9]+,[0-9]+\)\s+\S+\s+[0-9A-Fa-f]+#.*)",
+            "text of candump with a comma for the decimal point of its times",
+            "sed -E 's/^[(]([0-9]+),/(\\1./' '{0}' > '{1}'"},
+    Pattern{R"(^(t[0-9A-Fa-f]{4,}|T[0-9A-Fa-f]{9,})\r[\s\S]*)",
+            "a dump of an slcan adapter, with times in whole milliseconds", kSlcan}};
 
 std::string beginning_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

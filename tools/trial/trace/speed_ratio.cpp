@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "drivers/can/mit_protocol.hpp"
 #include "terrain/trial_statistics.hpp"
+#include "tools/trial/trace/frozen_replies.hpp"
+#include "tools/trial/trace/position_jumps.hpp"
+#include "tools/trial/trace/reply_steps.hpp"
 #include "tools/trial/trace/timing.hpp"
 
 namespace sandhopper::trace {
@@ -15,33 +17,14 @@ namespace {
 
 // With more parts Student's t hardly falls, with fewer it rises fast.
 constexpr std::size_t kParts = 10;
-// Rounding of the first and the last position is then below 5 % of the travel, half of the next limit.
-constexpr double kTravelSteps = 20.0;
 // Published ranges differ by a fifth or more (tools/calibrate/velocity_range.cpp). The limit lies halfway
 // between the right range and the nearest wrong one.
 constexpr double kDifferent = 0.1;
-// A range wrong by a factor of two is still compared. A larger step is a wrap or a jump of the position.
-constexpr double kFastest = 2.0;
-// Times of replies that an adapter delivers late count with the usual step; a longer pause hides the motion.
-constexpr std::int64_t kLongestStep = 3;
-
 struct Step {
   double moved_rad = 0.0;
   double velocity_radps = 0.0;  // mean of both replies
   double dt_s = 0.0;
 };
-
-double position_step_rad(const CubeMarsConfig& motor) {
-  constexpr double kSteps = 65535.0, kServoStep_rad = 0.1 * 3.14159265358979 / 180.0;
-  return motor.dialect == Dialect::mit ? 2.0 * motor.position_range_rad / kSteps : kServoStep_rad;
-}
-
-std::vector<const TimedReading*> replies_of(const std::vector<TimedReading>& decoded, Side side) {
-  std::vector<const TimedReading*> out;
-  for (const auto& reading : decoded)
-    if (reading.reading.side == side) out.push_back(&reading);
-  return out;
-}
 
 std::vector<Step> steps_of(const std::vector<const TimedReading*>& replies, const CubeMarsConfig& motor) {
   std::vector<std::int64_t> times_ns;
@@ -65,16 +48,6 @@ std::vector<Step> steps_of(const std::vector<const TimedReading*>& replies, cons
   return out;
 }
 
-// Variance of the noise in a mean of two neighbouring speeds. Second differences remove smooth motion.
-double noise_of(const std::vector<const TimedReading*>& replies) {
-  double squares = 0.0;
-  for (std::size_t i = 2; i < replies.size(); ++i) {
-    const auto v = [&](std::size_t k) { return replies[k]->reading.sample.velocity_radps; };
-    squares += std::pow(v(i) - 2.0 * v(i - 1) + v(i - 2), 2);
-  }
-  return replies.size() < 3 ? 0.0 : squares / 12.0 / static_cast<double>(replies.size() - 2);
-}
-
 double travel_rad(const std::vector<Step>& steps) {
   double at = 0.0, low = 0.0, high = 0.0;
   for (const auto& step : steps) {
@@ -82,6 +55,11 @@ double travel_rad(const std::vector<Step>& steps) {
     low = std::min(low, at), high = std::max(high, at);
   }
   return high - low;
+}
+
+// A speed that the drive does not send, or a position with exchanged bytes, has no ratio.
+bool is_named_otherwise(const TraceReport& report, Side side, const CubeMarsConfig& motor) {
+  return has_no_speed(report.decoded, side, motor) || has_exchanged_bytes(report.decoded, side, motor);
 }
 
 std::string likely_cure(const CubeMarsConfig& motor, double ratio) {
@@ -116,7 +94,8 @@ std::optional<SpeedRatio> speed_ratio(const std::vector<TimedReading>& decoded, 
     products += s.velocity_radps * s.moved_rad;
     seconds += s.dt_s;
   }
-  const double noise_share = squares > 0.0 ? noise_of(replies) * seconds / squares : 1.0;
+  const double noise_share =
+      squares > 0.0 ? speed_noise(replies, 0, replies.size() - 1) * seconds / squares : 1.0;
   if (noise_share > kDifferent || products == 0.0) return std::nullopt;
   SpeedRatio out{squares / products, 0.0};
   // The ten parts are taken as independent; within one, the errors may depend on each other.
@@ -135,7 +114,7 @@ Findings speed_findings(const TraceReport& report, const CanConfig& config) {
   Findings out;
   for (std::size_t m = 0; m < static_cast<std::size_t>(config.motor_count); ++m) {
     const auto& motor = config.motor[m];
-    if (report.motors[m].set_zero > 0) continue;
+    if (report.motors[m].set_zero > 0 || is_named_otherwise(report, static_cast<Side>(m), motor)) continue;
     const auto ratio = speed_ratio(report.decoded, static_cast<Side>(m), motor);
     if (!ratio || std::abs(ratio->value - 1.0) <= kDifferent + ratio->ci95) continue;
     std::string text =

@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "drivers/can/drive_error.hpp"
+#include "tools/trial/trace/frozen_replies.hpp"
 #include "tools/trial/trace/misplaced.hpp"
+#include "tools/trial/trace/position_jumps.hpp"
 #include "tools/trial/trace/speed_ratio.hpp"
 #include "tools/trial/trace/temperature.hpp"
 #include "tools/trial/trace/timing.hpp"
@@ -116,6 +118,7 @@ Findings drive_error_findings(const TraceReport& report, const CanConfig& config
       const auto first = std::ranges::find_if(report.decoded, side_of);
       const auto& motor = config.motor[m];
       if (code == kErrorPositionNearRangeEnd) {
+        if (has_exchanged_bytes(report.decoded, static_cast<Side>(m), motor)) continue;
         out.push_back(
             {"near_range_end",
              fmt::format("motor {}: {} replies are beyond {:.0f} % of position_range_rad = {:g}, first "
@@ -235,6 +238,8 @@ TraceReport examine_trace(Trace trace, const CanConfig& config, const TraceLimit
   append(report.findings, bus_error_findings(report.bus));
   append(report.findings, drive_error_findings(report, config));
   append(report.findings, temperature_findings(report, config, limits.motor_temperature_C));
+  append(report.findings, position_jump_findings(report, config));
+  append(report.findings, frozen_findings(report, config));
   append(report.findings, speed_findings(report, config));
   for (std::size_t m = 0; m < static_cast<std::size_t>(config.motor_count); ++m)
     append(report.findings,
