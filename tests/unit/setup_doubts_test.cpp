@@ -40,6 +40,9 @@ TEST(SetupDoubts, NameAKnownQuantityInAnotherUnitWithItsLine) {
         Case{"intruder", "Plate_Diam_cm = 5", "is not read", "write plate_diameter_m = 0.05"},
         Case{"intruder", "plate_diameter = 0.05", "is not read", "write plate_diameter_m"},
         Case{"intruder", "probe_diameter_mm = 12", "is not read", "write plate_diameter_m = 0.012"},
+        Case{"intruder", "plate_area_m2 = 0.0025", "is not read", "write plate_diameter_m = 0.056419"},
+        Case{"intruder", "foot_area_cm2 = 25", "is not read", "write plate_diameter_m = 0.056419"},
+        Case{"intruder", "plate = \"60 mm\"", "is not read", "write plate_diameter_m = 0.06"},
         Case{"falling_body", "mass_g = 145", "is in g", "write mass_kg = 0.145"},
         Case{"falling_body", "body_mass_g = 145", "is in g", "write mass_kg = 0.145"},
         Case{"rotary_axis", "inertia_g_cm2 = 300", "is in g_cm2", "write inertia_kg_m2 = 3e-05"},
@@ -52,6 +55,14 @@ TEST(SetupDoubts, NameAKnownQuantityInAnotherUnitWithItsLine) {
     const auto cured = load(plant, cure.substr(cure.find(' ') + 1));
     EXPECT_EQ(cured.trials, 1u) << cure << "\n" << cured.text;
   }
+}
+
+// A square foot is taken for the disc of its area, which the user states.
+TEST(SetupDoubts, NameTheSideOfAFootThatIsNoDisc) {
+  const auto loaded = load("intruder", "plate_width_mm = 80");
+  EXPECT_EQ(loaded.trials, 0u);
+  EXPECT_THAT(loaded.text, HasSubstr("write plate_diameter_m = 0.0902703, of the disc of the same area"));
+  EXPECT_EQ(load("intruder", "plate_width_mm = 80\nplate_diameter_m = 0.09").trials, 1u);
 }
 
 TEST(SetupDoubts, NameAMisspeltKey) {
@@ -96,10 +107,14 @@ TEST(SetupDoubts, LeaveTheLaboratorysOwnKeysAlone) {
        {"operator = \"A.\"\ntemperature_C = 21.5\nhumidity_percent = 40\nsession = 3\nsample_id = \"b7\"",
         "grain_diameter_um = 300\ncontainer_diameter_m = 0.3\nbead_diameter_mm = 1\nhole_diameter_mm = 6",
         "start_height_m = 0.1\ntarget_depth_m = 0.03\nsurface_height_mm = 3\ncamera_rate_Hz = 240",
+        "plate = \"B\"\nfoot = \"steel\"\ncylinder = 3\nbox_area_m2 = 0.2\nbox_width_m = 0.5\nbeam_width_mm "
+        "= 20",
+        "plate_thickness_mm = 5\nsieve_area_cm2 = 300\nbody_width_m = 0.2",
         "rest_min = 2\nfill_depth_mm = 100\nintrusion_number = 3\nbox_depth_m = 0.2",
         "moving_mass_kg = 0.4\nrig_mass_g = 20\ndepth_m = 0.03\nspeed = \"slow\"\nmass = \"light\"",
         "date = \"2026-11-29\"\nnote = \"50 mm plate\"\nradius_1 = 3\nmass_max_kg = 2.0"})
     EXPECT_EQ(load("intruder", setup).trials, 1u) << setup << "\n" << load("intruder", setup).text;
+  EXPECT_EQ(load("intruder", "plate_area_cm2 = 50.27", "[foot]\nradius_m = 0.04\n").trials, 1u);
   EXPECT_EQ(load("intruder", "plate_diameter_mm = 80", "[foot]\nradius_m = 0.04\n").trials, 1u);
   EXPECT_EQ(load("hopper", "rate = 1000").trials, 1u);
   EXPECT_EQ(load("falling_body", "ball_diameter_mm = 70").trials, 1u);  // nothing brakes it

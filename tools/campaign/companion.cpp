@@ -38,6 +38,18 @@ std::vector<double> gathered(const std::vector<double>& values, const std::vecto
 
 }  // namespace
 
+CampaignTrial trial_of(const CompanionFile& companion, const CampaignTrial& named_by) {
+  CampaignTrial trial;
+  trial.name = companion.file.string();
+  trial.file = companion.file;
+  trial.kind = named_by.kind;
+  trial.columns = companion.columns;
+  trial.format = companion.format;
+  trial.position = named_by.position;
+  trial.belief = named_by.belief;
+  return trial;
+}
+
 void join_companion(TrialRecording& recording, TrialRecording other, const std::string& file) {
   const bool joins = recording.usable() && other.usable();
   for (auto& finding : other.findings) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tools/campaign/belief_sources.hpp"
+#include "tools/campaign/force_at_depth.hpp"
 #include "tools/campaign/read_table.hpp"
 
 namespace sandhopper {
@@ -23,13 +24,9 @@ double area_of_foot_m2(const IntruderBelief& belief) {
 
 DeepestPush deepest_push(const TrialRecording& recording) {
   DeepestPush most;
-  const auto z = recording.channel("foot_z_m");
-  const auto* force = recording.find("force_N");
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    if (std::isnan(z[i])) continue;
-    most.depth_m = std::max(most.depth_m, -z[i]);
-    if (force != nullptr && !std::isnan((*force)[i])) most.force_N = std::max(most.force_N, (*force)[i]);
-  }
+  for (const double z_m : recording.channel("foot_z_m"))
+    if (!std::isnan(z_m)) most.depth_m = std::max(most.depth_m, -z_m);
+  for (const double force_N : ForceAtDepth(recording).force_N) most.force_N = std::max(most.force_N, force_N);
   return most;
 }
 

@@ -8,11 +8,13 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/signal_noise.hpp"
 
 namespace sandhopper {
 namespace {
@@ -57,19 +59,55 @@ bool swings_free(const TrialRecording& recording, const CampaignTrial& trial) {
   return !has_torque && trial.text("profile").value_or("release") == "release";
 }
 
+// The extremes of a swing: from each it comes back by `least_rad`.
+std::vector<double> turning_angles(const std::vector<double>& angles, double least_rad) {
+  std::vector<double> turns;
+  double extreme = angles.front(), sign = 0.0;
+  for (const double angle : angles) {
+    if (sign == 0.0 && std::abs(angle - angles.front()) > least_rad)
+      sign = std::copysign(1.0, angle - angles.front()), extreme = angle;
+    if (sign == 0.0) continue;
+    if (sign * (angle - extreme) > 0.0) extreme = angle;
+    if (sign * (extreme - angle) < least_rad) continue;
+    turns.push_back(extreme);
+    extreme = angle, sign = -sign;
+  }
+  return turns;
+}
+
+// The angle about which a pendulum swings, from three turns that follow each other: (a + 2 b + c) / 4 is free
+// of a constant loss per swing. Empty if it does not swing.
+std::optional<double> middle_of_swing(const std::vector<double>& angles, double noise_rad) {
+  const auto [low, high] = std::ranges::minmax(angles);
+  constexpr double kShare = 0.25;  // A swing that has lost more of its width is not counted.
+  constexpr double kClear = 5.0;   // in standard deviations of the noise, which is no swing
+  const auto turns = turning_angles(angles, std::max(kShare * (high - low), kClear * noise_rad));
+  if (turns.size() < 3 || !(high > low)) return std::nullopt;
+  const auto* last = &turns[turns.size() - 3];
+  return 0.25 * (last[0] + 2.0 * last[1] + last[2]);
+}
+
 struct AngleDoubt {
   std::string what;
-  double factor = 1.0;  // of the column's scale, if another unit is what is wrong
+  double factor = 1.0;      // of the column's scale, if another unit is what is wrong
+  double offset_rad = 0.0;  // that moves the hanging position to 0, if the zero is what is wrong
 };
 
-AngleDoubt doubt_of_angle(const std::vector<double>& angles, const CampaignTrial& trial) {
+AngleDoubt doubt_of_angle(const std::vector<double>& angles, double noise_rad, const CampaignTrial& trial) {
   const auto [low, high] = std::ranges::minmax(angles);
   if (const double way = way_there_and_back(angles); way > kTurn_rad)
     return {fmt::format("turns by {:.3g} rad and back, more than one turn, and a pendulum that swings free "
                         "and turns round stays within one turn (6.28 rad): degrees taken for rad, or the "
                         "angle of a motor before its gear",
                         way),
-            kDegree_rad};
+            kDegree_rad, 0.0};
+  if (const auto middle = middle_of_swing(angles, noise_rad)) {
+    const double quarters = std::round(*middle / (0.25 * kTurn_rad));
+    if (std::fmod(quarters, 4.0) != 0.0)
+      return {fmt::format("swings about {:.4g} rad, which is {} from hanging, angle 0", *middle,
+                          std::fmod(quarters, 2.0) == 0.0 ? "half a turn" : "a quarter turn"),
+              1.0, -quarters * 0.25 * kTurn_rad};
+  }
   const double release = std::abs(trial.number("release_position_rad").value_or(0.0));
   if (!(release > 0.0)) return {};
   const double half = 0.5 * (high - low), between = std::sqrt(1.0 / kDegree_rad);
@@ -77,13 +115,13 @@ AngleDoubt doubt_of_angle(const std::vector<double>& angles, const CampaignTrial
     return {fmt::format("swings by {:.3g} rad to either side, and release_position_rad is {:.4g}: a pendulum "
                         "that is let go swings no farther than that",
                         half, release),
-            kDegree_rad};
+            kDegree_rad, 0.0};
   constexpr double kNearRelease = 0.2;  // as kNearHeight of fall_limits.cpp: the zero, and rows that are cut
   const bool starts_small = std::abs(std::abs(angles.front()) / (release * kDegree_rad) - 1.0) < kNearRelease;
   if (starts_small && half < (1.0 + kNearRelease) * release * kDegree_rad)
     return {fmt::format("starts at {:.3g} rad, and release_position_rad is {:.4g}, {:.3g} times that",
                         angles.front(), release, release / std::abs(angles.front())),
-            1.0 / kDegree_rad};
+            1.0 / kDegree_rad, 0.0};
   return {};
 }
 
@@ -98,13 +136,15 @@ void check_free_swing(TrialRecording& recording, const Campaign& campaign, const
   if (!(belief->axis.gravity_torque_Nm > 0.0) || !swings_free(recording, trial)) return;
   const auto angles = without_spikes(recording.channel("position_rad"));
   if (angles.empty()) return;
-  auto doubt = doubt_of_angle(angles, trial);
+  auto doubt = doubt_of_angle(angles, noise_of_bends(recording.channel("position_rad")), trial);
   if (doubt.what.empty()) return;
   const auto* column = places.column_of("position_rad");
+  auto corrected = column == nullptr ? UsedColumn{} : in_other_unit(*column, doubt.factor);
+  corrected.offset += doubt.offset_rad;
   doubt_column(recording, places, places.is_stated("position_rad"), "position_rad", std::move(doubt.what),
                column == nullptr ? "correct the unit of position_rad"
                                  : fmt::format("if so write {} into [columns], or correct the set-up",
-                                               mapping_line(in_other_unit(*column, doubt.factor))));
+                                               mapping_line(corrected)));
 }
 
 }  // namespace sandhopper

@@ -12,15 +12,24 @@ namespace {
 
 // Registers of encoders (12 to 14 bits), microcontrollers (16, 32) and converters (24).
 constexpr std::array kBits{12, 13, 14, 16, 24, 32};
-// Largest step, as a share of half the width, beside which a jump by the width is no motion. A counter that
-// was set anew jumps by the width to within this step in one of a hundred cases.
-constexpr double kLargestStep = 0.01;
+// A counter that was set anew, or a force that yields, jumps by the width to within a step with a probability
+// of the step as a share of half the width. Above this probability the jump is no overflow.
+constexpr double kByChanceAtMost = 0.01;
 constexpr std::size_t kFewestCounts = 20;
 
 struct Register {
   double width = 0.0;
   std::size_t jumps = 0;
 };
+
+// True if the counts fill a register with or without sign from one end to the other, to within a step. That
+// is a second coincidence beside the width of the jump.
+bool fills(double width, double low, double high, double step) {
+  const auto from = [&](double least) {
+    return low >= least && low < least + step && high < least + width && high >= least + width - 1.0 - step;
+  };
+  return from(0.0) || from(-0.5 * width);
+}
 
 // The register whose width every jump has, to within a step.
 Register register_of(const std::vector<double>& counts, double low, double high) {
@@ -36,7 +45,10 @@ Register register_of(const std::vector<double>& counts, double low, double high)
       else
         usual = std::max(usual, step);
     }
-    if (found.jumps > 0 && std::max(usual, left) <= kLargestStep * 0.5 * width) return found;
+    const double step = std::max(usual, left);
+    const double share = step / (0.5 * width);
+    const double chance = fills(width, low, high, step) ? share * share : share;
+    if (found.jumps > 0 && chance <= kByChanceAtMost) return found;
   }
   return {};
 }

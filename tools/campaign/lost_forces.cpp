@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "tools/campaign/force_at_depth.hpp"
 #include "tools/campaign/trial_rows.hpp"
 
 namespace sandhopper {
@@ -22,13 +24,8 @@ constexpr std::size_t kBeside = 6;
 // Rows with a force.
 struct Forces {
   explicit Forces(const TrialRecording& recording) {
-    const auto* values = recording.find(kForce);
-    const auto* z = recording.find("foot_z_m");
-    if (values == nullptr || z == nullptr) return;
-    for (std::size_t row = 0; row < values->size(); ++row) {
-      if (std::isnan((*values)[row]) || std::isnan((*z)[row])) continue;
-      rows.push_back(row), force.push_back((*values)[row]), height.push_back((*z)[row]);
-    }
+    ForceAtDepth pairs(recording);
+    rows = std::move(pairs.rows), force = std::move(pairs.force_N), height = std::move(pairs.z_m);
   }
 
   std::size_t size() const { return force.size(); }

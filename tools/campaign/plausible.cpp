@@ -209,9 +209,12 @@ std::span<const PlausibleBound> plausible_bounds() { return kBounds; }
 
 void check_plausible(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                      const RecordingPlaces& places) {
-  PlausibilityChecker checker(recording, campaign, trial, places);
-  checker.run();
-  checker.check_forces();
+  PlausibilityChecker(recording, campaign, trial, places).run();
+}
+
+void check_overburden(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                      const RecordingPlaces& places) {
+  PlausibilityChecker(recording, campaign, trial, places).check_forces();
 }
 
 std::vector<Finding> implausible_beliefs(const Campaign& campaign) {

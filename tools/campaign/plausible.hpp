@@ -10,7 +10,7 @@
 // sources (plausible.cpp), and relations between channels:
 //   rate of a position = its speed channel              within a factor of 5
 //   |height(t) - height(0)| <= 15 m/s t + g t^2         a throw and a fall, with margin
-//   peak force >= rho g z_max A / 5                     weight of the displaced material
+//   peak force >= rho g z_max A / 5                     weight of the displaced material (check_overburden)
 namespace sandhopper {
 
 // Largest plausible magnitude of one channel.
@@ -26,6 +26,9 @@ std::span<const PlausibleBound> plausible_bounds();
 // states both `unit` and `scale`: then the user confirms the values and it is only a note.
 void check_plausible(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                      const RecordingPlaces& places);
+
+void check_overburden(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                      const RecordingPlaces& places);
 
 // Findings for impossible numbers of the belief, for example a gravity of 1.0 or a body denser than any
 // metal.

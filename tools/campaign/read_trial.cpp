@@ -14,6 +14,7 @@
 #include "tools/campaign/exchanged_columns.hpp"
 #include "tools/campaign/frozen_rows.hpp"
 #include "tools/campaign/full_counters.hpp"
+#include "tools/campaign/joined_press.hpp"
 #include "tools/campaign/plant_doubt.hpp"
 #include "tools/campaign/position_loop.hpp"
 #include "tools/campaign/read_table.hpp"
@@ -58,6 +59,8 @@ class Reader {
     if (!any_unusable(out_.findings)) judge_samples();
     return std::move(out_);
   }
+
+  const RecordingPlaces& places() const { return places_; }
 
  private:
   void judge_samples() {
@@ -377,20 +380,18 @@ class Reader {
 
 TrialRecording read_trial(const Campaign& campaign, const CampaignTrial& trial,
                           const std::function<bool(std::string_view key)>& can_do_without) {
-  auto recording = Reader(campaign, trial).run();
+  Reader first(campaign, trial);
+  auto recording = first.run();
   for (const auto& number : trial.unstated)
     recording.findings.push_back(
         finding_of(number, !can_do_without(number.key) && !is_replaced(number.key, trial.belief)));
   for (const auto& companion : trial.companions) {
-    CampaignTrial other;
-    other.name = companion.file.string();
-    other.file = companion.file;
-    other.kind = trial.kind;
-    other.columns = companion.columns;
-    other.format = companion.format;
-    other.position = trial.position;
-    other.belief = trial.belief;
-    join_companion(recording, Reader(campaign, other).run(), other.file.string());
+    const auto other = trial_of(companion, trial);
+    Reader second(campaign, other);
+    auto more = second.run();
+    const JoinedPress press(recording, first.places(), more, second.places());
+    join_companion(recording, std::move(more), other.file.string());
+    press.check(recording, campaign, trial);
   }
   if (recording.usable()) add_position_loop(recording, trial);
   return recording;

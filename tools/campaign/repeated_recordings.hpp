@@ -1,27 +1,46 @@
 #pragma once
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/campaign/campaign.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 namespace sandhopper {
 
-// Fingerprint of a recording's samples: channels and values, not times. 0 for a recording that another one
-// could equal by chance.
-std::uint64_t fingerprint_of(const TrialRecording& recording);
+// A channel that shows noise, or its part around its largest value if it is long.
+struct NoisyChannel {
+  std::string name;
+  std::vector<double> t_s, values;
+};
+
+// What recognises a recording.
+struct Fingerprint {
+  std::uint64_t exact =
+      0;  // of channels and values, not times; 0: another recording could equal it by chance
+  std::vector<NoisyChannel> noisy{};
+};
+
+Fingerprint fingerprint_of(const TrialRecording& recording);
+
+// True if two recordings share their noise in every channel in which both show noise: one is the other with
+// other digits, fewer rows, a cut begin or end, another begin of its clock or another zero.
+bool have_one_noise(const Fingerprint& a, const Fingerprint& b);
 
 // Finds one recording that a campaign lists twice, also under another name or with another set-up. Noise
 // never repeats, so a second trial with the same samples is no second measurement.
 class RepeatedRecordings {
  public:
   // The finding of a trial whose samples an earlier one has; it makes the trial unusable.
-  std::optional<Finding> add(const CampaignTrial& trial, std::uint64_t fingerprint);
+  std::optional<Finding> add(const CampaignTrial& trial, Fingerprint fingerprint);
 
  private:
-  std::map<std::uint64_t, const CampaignTrial*> first_;
+  struct Known {
+    Fingerprint fingerprint;
+    const CampaignTrial* trial;
+  };
+  std::vector<Known> known_;
 };
 
 }  // namespace sandhopper

@@ -6,6 +6,7 @@
 #include "tools/campaign/fall_accel_check.hpp"
 #include "tools/campaign/fall_check.hpp"
 #include "tools/campaign/fall_limits.hpp"
+#include "tools/campaign/force_steps.hpp"
 #include "tools/campaign/force_unit_check.hpp"
 #include "tools/campaign/free_swing_check.hpp"
 #include "tools/campaign/gravity_check.hpp"
@@ -27,6 +28,17 @@
 #include "tools/campaign/value_steps.hpp"
 
 namespace sandhopper {
+namespace {
+
+void check_surfaces(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                    const RecordingPlaces& places) {
+  const double surface_m = check_surface_onset(recording, campaign, trial, places);
+  check_surface(recording, campaign, trial, places, surface_m);
+  const bool pushes = trial.kind == TrialKind::intrusion || trial.kind == TrialKind::press;
+  if (campaign.plant == CampaignPlant::intruder && pushes) check_force_steps(recording, places);
+}
+
+}  // namespace
 
 void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places) {
@@ -35,6 +47,7 @@ void check_samples(TrialRecording& recording, const Campaign& campaign, const Ca
   check_interpolated(recording, places);
   check_lost_forces(recording, places);
   check_plausible(recording, campaign, trial, places);
+  check_overburden(recording, campaign, trial, places);
   check_depth_unit(recording, campaign, trial, places);
   check_force_unit(recording, campaign, trial, places);
   check_rates(recording, places);
@@ -48,13 +61,22 @@ void check_samples(TrialRecording& recording, const Campaign& campaign, const Ca
   check_hopper(recording, campaign, trial, places);
   if (!check_fall_acceleration(recording, campaign, trial, places))
     check_signs(recording, campaign, trial, places);
+  check_push_signs(recording, campaign, trial, places);
   check_hopper_heights(recording, campaign, trial, places);
   check_hopper_forces(recording, campaign, trial, places);
-  const double surface_m = check_surface_onset(recording, campaign, trial, places);
-  check_surface(recording, campaign, trial, places, surface_m);
+  check_surfaces(recording, campaign, trial, places);
   check_value_steps(recording, places);
   check_clock_steps(recording, places);
   check_lost_frames(recording, places);
+}
+
+void check_press(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                 const RecordingPlaces& places) {
+  check_lost_forces(recording, places);
+  check_overburden(recording, campaign, trial, places);
+  check_force_unit(recording, campaign, trial, places);
+  check_push_signs(recording, campaign, trial, places);
+  check_surfaces(recording, campaign, trial, places);
 }
 
 }  // namespace sandhopper

@@ -9,4 +9,8 @@ namespace sandhopper {
 void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places);
 
+// The part of check_samples that compares the force on a foot with its depth.
+void check_press(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                 const RecordingPlaces& places);
+
 }  // namespace sandhopper

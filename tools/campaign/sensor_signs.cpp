@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tools/campaign/force_at_depth.hpp"
 #include "tools/campaign/implausible.hpp"
 
 namespace sandhopper {
@@ -78,8 +79,10 @@ class SignChecker {
     if (recording_.has_time)
       for (const auto channel : kSpecificForces) check_rest(channel);
     check_name();
-    const bool pushes = campaign_.plant == CampaignPlant::intruder && trial_.kind != TrialKind::clamped;
-    if (pushes) check_push();
+  }
+
+  void check_push() {
+    if (campaign_.plant == CampaignPlant::intruder && trial_.kind != TrialKind::clamped) compare_with_depth();
   }
 
  private:
@@ -177,27 +180,19 @@ class SignChecker {
   }
 
   // Compares the position of the rows with the largest fifth of the forces with the range of positions.
-  void check_push() {
+  void compare_with_depth() {
     if (!recording_.has("force_N") || !recording_.has("foot_z_m")) return;
-    const auto force = recording_.channel("force_N"), z = recording_.channel("foot_z_m");
-    ValueRange forces, heights;
-    std::vector<double> pairs_force, pairs_z;
-    for (std::size_t i = 0; i < force.size(); ++i) {
-      if (std::isnan(force[i]) || std::isnan(z[i])) continue;
-      forces.take(force[i]);
-      heights.take(z[i]);
-      pairs_force.push_back(force[i]);
-      pairs_z.push_back(z[i]);
-    }
+    const ForceAtDepth pairs(recording_);
+    const auto forces = range_of(pairs.force_N), heights = range_of(pairs.z_m);
     constexpr std::size_t kFewest = 20;
-    if (pairs_z.size() < kFewest || !(heights.width() > 0.0) || !(forces.most() > 0.0)) return;
+    if (pairs.size() < kFewest || !(heights.width() > 0.0) || !(forces.most() > 0.0)) return;
     const bool negative = -forces.low > 5.0 * std::max(forces.high, 0.0);
     if (negative)
       return add("force_N",
                  "is negative where it is largest: a bed pushes, and the channel counts compression", -1.0);
     double sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < pairs_z.size(); ++i)
-      if (pairs_force[i] > forces.low + 0.8 * forces.width()) sum += pairs_z[i], count += 1.0;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (pairs.force_N[i] > forces.low + 0.8 * forces.width()) sum += pairs.z_m[i], count += 1.0;
     const double place = (sum / count - heights.low) / heights.width();  // 0: lowest, 1: highest
     // A depth that counts downward is mostly positive: the part above the surface is short.
     if (place > 0.8 && heights.low > -0.5 * heights.width())
@@ -228,6 +223,11 @@ class SignChecker {
 void check_signs(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                  const RecordingPlaces& places) {
   SignChecker(recording, campaign, trial, places).run();
+}
+
+void check_push_signs(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
+                      const RecordingPlaces& places) {
+  SignChecker(recording, campaign, trial, places).check_push();
 }
 
 }  // namespace sandhopper

@@ -48,8 +48,49 @@ bool is_read(CampaignPlant plant, std::string_view key) {
   return false;
 }
 
+// Sides of a foot that is no disc. The tools take the disc of the same area.
+constexpr std::array<std::string_view, 4> kSides{"width", "side", "edge", "breadth"};
+constexpr std::array<std::string_view, 2> kFlat{"plate", "foot"};
+
+// The square metres of one unit of an area: "plate_area_cm2".
+std::optional<double> unit_of_area_m2(std::string_view key) {
+  struct Area {
+    std::string_view ending;
+    double in_m2;
+  };
+  for (const auto& [ending, in_m2] : {Area{"_mm2", 1e-6}, Area{"_cm2", 1e-4}, Area{"_m2", 1.0}})
+    if (key.ends_with(ending)) return in_m2;
+  return std::nullopt;
+}
+
+// The size that "plate_area_cm2", "plate_width_mm" or plate = "80 mm" states.
+std::optional<Size> size_in_other_words(const SetupEntry& entry) {
+  if (const auto* text = std::get_if<std::string>(&entry.value)) {
+    const auto number = number_in_text(*text);
+    const bool is_length = number && number->dimension == "length" && number->value > 0.0;
+    if (!is_length || !holds(kFoot, plain_name(entry.key))) return std::nullopt;
+    return Size{&entry, number->value * number->to_si, false, true};
+  }
+  const auto* value = std::get_if<double>(&entry.value);
+  if (value == nullptr || !(*value > 0.0)) return std::nullopt;
+  const auto last = entry.key.rfind('_');
+  const auto kind_at = last == std::string::npos ? last : entry.key.rfind('_', last - 1);
+  const std::string thing = kind_at == std::string::npos ? "" : plain_name(entry.key.substr(0, kind_at));
+  const auto begin = kind_at == std::string::npos ? 0 : kind_at + 1;
+  const auto kind = plain_name(entry.key.substr(begin, last == std::string::npos ? last : last - begin));
+  if (const auto unit_m2 = unit_of_area_m2(entry.key)) {
+    if (kind != "area" || (!thing.empty() && !holds(kFoot, thing))) return std::nullopt;
+    return Size{&entry, of_area_m(*value * *unit_m2), false, true};
+  }
+  const auto parts = parts_of_key(entry.key);
+  if (parts.dimension != "length" || !holds(kSides, kind) || !holds(kFlat, thing)) return std::nullopt;
+  const double side_m = *value * parts.to_si;
+  return Size{&entry, of_area_m(side_m * side_m), false, false};
+}
+
 // The size that an entry states: "<thing>_diameter_<length>", "radius_mm", "frontal_area_m2".
 std::optional<Size> size_of(const SetupEntry& entry, CampaignPlant plant) {
+  if (const auto size = size_in_other_words(entry); size && !is_read(plant, entry.key)) return size;
   const auto* value = std::get_if<double>(&entry.value);
   if (value == nullptr || !(*value > 0.0)) return std::nullopt;
   if (entry.key == "frontal_area_m2" && plant == CampaignPlant::falling_body)
@@ -63,6 +104,11 @@ std::optional<Size> size_of(const SetupEntry& entry, CampaignPlant plant) {
   const bool foot = thing.empty() || holds(kFoot, thing);
   if (!foot && !holds(kMaybeFoot, thing)) return std::nullopt;
   return Size{&entry, *value * parts.to_si * (kind == "radius" ? 2.0 : 1.0), is_read(plant, entry.key), foot};
+}
+
+bool is_side(const Size& size) {
+  return std::ranges::any_of(
+      kSides, [&](std::string_view side) { return size.entry->key.find(side) != std::string::npos; });
 }
 
 bool is_same(double a_m, double b_m) { return std::abs(a_m - b_m) <= kSameScale * std::abs(b_m); }
@@ -117,12 +163,14 @@ std::optional<Finding> contradicting_sizes(const CampaignTrial& trial, CampaignP
   if (!believed && body != nullptr && body->medium.density_kg_per_m3 == 0.0) return std::nullopt;
   for (const auto& size : sizes)
     if (!believed || !is_same(size.diameter_m, *believed))
-      return complaint(size, file,
-                       fmt::format("is not read{}", believed ? fmt::format(", and a diameter of {:.6g} m is "
-                                                                           "used instead",
-                                                                           *believed)
-                                                             : ""),
-                       fmt::format("write {} = {:.6g}", usual_key(plant), size.diameter_m));
+      return complaint(
+          size, file,
+          fmt::format("is not read{}", believed ? fmt::format(", and a diameter of {:.6g} m is "
+                                                              "used instead",
+                                                              *believed)
+                                                : ""),
+          fmt::format("write {} = {:.6g}{}", usual_key(plant), size.diameter_m,
+                      is_side(size) ? ", of the disc of the same area, if the foot is a square" : ""));
   return std::nullopt;
 }
 

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "tools/campaign/force_at_depth.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/surface_onset.hpp"
 
 namespace sandhopper {
 namespace {
@@ -44,16 +47,12 @@ struct Fall {
   bool is_clear() const { return accel_mps2 > kClear * sd_mps2; }
 };
 
-// Depth and force in the rows that have both.
 struct Push {
   explicit Push(const TrialRecording& recording) {
-    const auto force = recording.channel("force_N"), z = recording.channel("foot_z_m");
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      if (std::isnan(z[i]) || std::isnan(force[i])) continue;
-      depth_m.push_back(-z[i]);
-      force_N.push_back(force[i]);
-      if (recording.has_time) t_s.push_back(recording.t_s[i]);
-    }
+    ForceAtDepth pairs(recording);
+    for (const double z_m : pairs.z_m) depth_m.push_back(-z_m);
+    force_N = std::move(pairs.force_N);
+    if (recording.has_time) t_s = std::move(pairs.t_s);
   }
 
   // Least squares of depth = a + b t + 1/2 g t^2 over the rows above the surface.
@@ -220,6 +219,7 @@ class SurfaceChecker {
     while (first < push_.depth_m.size() && push_.force_N[first] - air.mean_N < bears_N) ++first;
     if (first == push_.depth_m.size() || push_.depth_m[first] < std::max(0.5 * *deepest, kLeastHole_m))
       return;
+    if (is_loaded_at_start(push_.depth_m, push_.force_N, first)) return;
     std::string cure = "count the depth from the surface";
     if (const auto* column = places_.column_of("foot_z_m")) {
       auto moved = *column;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/campaign/force_at_depth.hpp"
 #include "tools/campaign/implausible.hpp"
 #include "tools/campaign/lost_forces.hpp"
 #include "tools/campaign/setup_keys.hpp"
@@ -23,17 +24,16 @@ constexpr double kSteepest = 3.0;       // a cone; see the header
 constexpr double kHole = 0.5;           // share of the depth from which check_surface sees a hole
 constexpr double kOutOfLevel = 0.0349;  // sin(2 degrees)
 
-// The first stroke: rows with depth and force down to where the foot first comes back by a tenth of its way.
+// The first stroke: samples of the force down to where the foot first comes back by a tenth of its way.
 // Forces that were not measured are left out.
 struct Stroke {
   explicit Stroke(const TrialRecording& recording) {
-    const auto force = recording.channel("force_N"), z = recording.channel("foot_z_m");
-    std::vector<bool> is_lost(z.size(), false);
+    const ForceAtDepth pairs(recording);
+    std::vector<bool> is_lost(recording.rows(), false);
     for (const auto& lost : lost_forces(recording))
       for (std::size_t row = lost.first_row; row <= lost.last_row; ++row) is_lost[row] = true;
-    for (std::size_t i = 0; i < z.size(); ++i)
-      if (!std::isnan(z[i]) && !std::isnan(force[i]) && !is_lost[i])
-        depth_m.push_back(-z[i]), force_N.push_back(force[i]);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (!is_lost[pairs.rows[i]]) depth_m.push_back(-pairs.z_m[i]), force_N.push_back(pairs.force_N[i]);
     if (!depth_m.empty()) end_where_it_turns();
   }
 
@@ -58,15 +58,15 @@ struct ForceLine {
 };
 
 // Least squares of force over depth.
-std::optional<ForceLine> line_through(const Stroke& stroke, std::size_t begin, std::size_t end) {
+std::optional<ForceLine> line_through(std::span<const double> depth_m, std::span<const double> force_N,
+                                      std::size_t begin, std::size_t end) {
   const auto n = static_cast<double>(end - begin);
   ForceLine line;
-  for (std::size_t i = begin; i < end; ++i)
-    line.depth_m += stroke.depth_m[i] / n, line.force_N += stroke.force_N[i] / n;
+  for (std::size_t i = begin; i < end; ++i) line.depth_m += depth_m[i] / n, line.force_N += force_N[i] / n;
   double dd = 0.0, df = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
-    const double away_m = stroke.depth_m[i] - line.depth_m;
-    dd += away_m * away_m, df += away_m * (stroke.force_N[i] - line.force_N);
+    const double away_m = depth_m[i] - line.depth_m;
+    dd += away_m * away_m, df += away_m * (force_N[i] - line.force_N);
   }
   if (!(dd > 0.0) || !(df > 0.0)) return std::nullopt;
   line.slope_N_per_m = df / dd;
@@ -143,8 +143,8 @@ std::optional<Onset> onset_of(const Stroke& stroke) {
   while (end < force.size() && force[end] - idle_N < kOnsetClear * clear_N) ++end;
   end = std::max(end, first + kFewestOfLine);
   if (first <= kIdleRows || end >= force.size()) return std::nullopt;
-  const auto line = line_through(stroke, first, end);
-  if (!line) return std::nullopt;
+  const auto line = line_through(stroke.depth_m, force, first, end);
+  if (!line || is_loaded_at_start(stroke.depth_m, force, first)) return std::nullopt;
   return Onset{stroke.depth_m[first], line->depth_m - (line->force_N - idle_N) / line->slope_N_per_m,
                is_too_steep(stroke, first, end, idle_N, sd_N), grows_above(stroke, first, idle_N)};
 }
@@ -176,6 +176,15 @@ std::string surface_cure(const RecordingPlaces& places, double surface_m) {
 }
 
 }  // namespace
+
+bool is_loaded_at_start(std::span<const double> depth_m, std::span<const double> force_N, std::size_t first) {
+  constexpr double kAlikeSides = 0.5;  // as in lost_forces.cpp
+  const auto before = line_through(depth_m, force_N, 0, first);
+  const auto after = line_through(depth_m, force_N, first, std::min(2 * first, force_N.size()));
+  if (!before || !after || before->slope_N_per_m < kAlikeSides * after->slope_N_per_m) return false;
+  const double rise_N = before->slope_N_per_m * std::abs(depth_m[first - 1] - depth_m[0]);
+  return rise_N > kOnsetClear * noise_of_bends(force_N.first(first));
+}
 
 double check_surface_onset(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                            const RecordingPlaces& places) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "tools/campaign/check_channels.hpp"
 
 namespace sandhopper {
@@ -10,8 +12,14 @@ namespace sandhopper {
 //   is 0.3 to 1.7), 2 for a wedge, 3 for a cone, whose area grows with d^2; so no foot does that.
 // A smaller difference than a foot that is 2 degrees out of level makes (one of its edges touches first) is
 // no fault of the depth.
+// Nothing is noted of a recording in which the force grows from its first row on: its foot was in the bed
+// already, and the surface is not in it.
 // Returns the surface's depth if it is noted, else 0.
 double check_surface_onset(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                            const RecordingPlaces& places);
+
+// True if the force grows in the rows before `first`, in which the foot seems to be in air, at half the rate
+// of as many rows from `first` on, or faster.
+bool is_loaded_at_start(std::span<const double> depth_m, std::span<const double> force_N, std::size_t first);
 
 }  // namespace sandhopper

@@ -8,11 +8,6 @@
 #include "firmware/log/csv_import.hpp"
 
 namespace sandhopper {
-namespace {
-
-constexpr double kGapSteps = 5.0;
-
-}  // namespace
 
 void note_at_row(TrialRecording& recording, const RecordingPlaces& places, FindingKind kind, std::size_t row,
                  std::string what, std::string cure) {
@@ -84,7 +79,7 @@ void note_gaps(TrialRecording& recording, const RecordingPlaces& places) {
   double largest_s = 0.0;
   for (std::size_t i = 0; i + 1 < t_s.size(); ++i) {
     const double step_s = t_s[i + 1] - t_s[i];
-    if (step_s <= kGapSteps * usual_s) continue;
+    if (step_s <= kLongestStep * usual_s) continue;
     ++count;
     if (count > 1 && step_s <= largest_s) continue;
     largest = i;

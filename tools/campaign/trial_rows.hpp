@@ -14,6 +14,9 @@ namespace sandhopper {
 // With fewer a trial cannot be judged (check_times, doubt_time), and no plant of a diagnosis takes one.
 inline constexpr std::size_t kFewestSelectedRows = 10;
 
+// A longer step between two times is a gap, in median steps.
+inline constexpr double kLongestStep = 5.0;
+
 // Indices of the rows whose time (s) and value in `column` are selected; null: any value. Selection by line
 // is done when the file is read.
 std::vector<std::size_t> selected_rows(const RowSelection& rows, const std::vector<double>& t_s,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tools/campaign/name_factor.hpp"
 #include "tools/campaign/unit_text.hpp"
 
 namespace sandhopper {
@@ -56,12 +57,35 @@ UnitVerdict other_dimension(const ColumnUnits& c, const WrittenUnit& unit, const
               wanted.text, unit.text, c.channel, c.column, unit.text)};
 }
 
+// "Force x10 (N)" may hold ten times the force in N, or the number of 10 N.
+UnitVerdict factor_in_name(const ColumnUnits& c, const WrittenUnit& unit, const WrittenUnit& wanted,
+                           std::string_view where) {
+  return {c.scale,
+          fmt::format("{} \"{}\", a unit beside a factor: the numbers may be so many times, or that part of, "
+                      "what they would be in the unit",
+                      where, unit.text),
+          fmt::format(
+              "say how many {} the number 1 stands for: {} = {{ column = \"{}\", unit = \"{}\", scale = … }} "
+              "in [columns]",
+              wanted.text, c.channel, c.column, unit.text)};
+}
+
+// A scale that is only that of the unit in the brackets, or in the row of units, leaves the factor open.
+bool leaves_factor_open(const ColumnUnits& c, const WrittenUnit& wanted) {
+  if (!c.has_scale || same(c.scale, 1.0)) return true;
+  const auto unit = c.row_unit.empty() ? read_unit(text_in_brackets(c.column).value_or(""), true)
+                                       : read_unit(c.row_unit, true);
+  const auto factor = unit ? factor_between(*unit, wanted) : std::nullopt;
+  return factor && same(c.scale, *factor);
+}
+
 // `unit` without `scale` does not overrule the file: it may be the channel's unit, copied from an example.
 UnitVerdict stated_alone(ColumnUnits c, double factor, const WrittenUnit& wanted) {
   c.scale = factor;
   const auto [unit, where] = unit_in_file(c);
   if (!unit) return {.scale = factor};
   // An unknown word contradicts nothing, but a factor does: unit = "N" for "F (N, x1000)" says nothing of it.
+  if (unit->beside_factor) return factor_in_name(c, *unit, wanted, where);
   if (unit->dimension.empty() && !holds_factor(unit->text)) return {.scale = factor};
   if (const auto files = factor_between(*unit, wanted))
     return same(factor, *files) ? UnitVerdict{.scale = factor}
@@ -104,7 +128,10 @@ UnitVerdict stated(const ColumnUnits& c, const WrittenUnit& wanted) {
 }  // namespace
 
 FilesUnit unit_in_file(const ColumnUnits& c) {
-  if (auto unit = c.row_unit.empty() ? std::nullopt : read_unit(c.row_unit, true))
+  if (auto unit = c.row_unit.empty() ? std::nullopt : read_unit(c.row_unit, true);
+      unit && c.column != c.channel && name_holds_factor(without_brackets(c.column)))
+    return {unit_beside_factor(c.column, unit->text), "its name and unit say"};
+  else if (unit)
     return {std::move(unit), c.row_source.empty() ? "the row of units says" : c.row_source};
   return {c.column == c.channel ? std::nullopt : unit_in_name(c.column), "its name says"};
 }
@@ -120,6 +147,7 @@ UnitVerdict check_unit(const ColumnUnits& c) {
   if (!c.stated_unit.empty()) return stated(c, *wanted);
   const auto [unit, where] = unit_in_file(c);
   if (!unit) return {.scale = c.scale};
+  if (unit->beside_factor && leaves_factor_open(c, *wanted)) return factor_in_name(c, *unit, *wanted, where);
   const auto factor = factor_between(*unit, *wanted);
   if (!factor) {
     if (!unit->is_certain || (c.has_scale && !same(c.scale, 1.0))) return {.scale = c.scale};

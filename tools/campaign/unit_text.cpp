@@ -82,6 +82,43 @@ std::optional<std::string_view> text_in_brackets(std::string_view name) {
   return std::nullopt;
 }
 
+std::string without_brackets(std::string_view name) {
+  const auto inner = text_in_brackets(name);
+  if (!inner) return std::string(name);
+  const auto begin = static_cast<std::size_t>(inner->data() - name.data());
+  const auto open = name.find_last_of("[(", begin - 1),
+             close = name.find_first_of(")]", begin + inner->size());
+  return std::string(name.substr(0, open)) + " " + std::string(name.substr(close + 1));
+}
+
+std::string with_plain_powers(std::string_view text) {
+  struct Raised {
+    std::string_view sign, plain;
+  };
+  constexpr std::array<Raised, 11> kSigns{{{"\xE2\x81\xBB", "-"},
+                                           {"\xE2\x81\xB0", "0"},
+                                           {"\xC2\xB9", "1"},
+                                           {"\xC2\xB2", "2"},
+                                           {"\xC2\xB3", "3"},
+                                           {"\xE2\x81\xB4", "4"},
+                                           {"\xE2\x81\xB5", "5"},
+                                           {"\xE2\x81\xB6", "6"},
+                                           {"\xE2\x81\xB7", "7"},
+                                           {"\xE2\x81\xB8", "8"},
+                                           {"\xE2\x81\xB9", "9"}}};
+  const auto at = text.find("10");
+  if (at == std::string_view::npos) return std::string(text);
+  std::string power;
+  auto rest = text.substr(at + 2);
+  for (bool found = true; found;) {
+    const auto raised =
+        std::ranges::find_if(kSigns, [&](const Raised& r) { return rest.starts_with(r.sign); });
+    found = raised != kSigns.end();
+    if (found) power += raised->plain, rest.remove_prefix(raised->sign.size());
+  }
+  return std::string(text.substr(0, at + 2)) + (power.empty() ? "" : "^" + power) + std::string(rest);
+}
+
 std::vector<std::string_view> words_beside_unit(std::string_view text) {
   constexpr std::string_view kBetween = " \t,;";
   std::vector<std::string_view> words;

@@ -14,6 +14,12 @@ std::string in_plain_signs(std::string_view text);
 // Text in the last brackets, [] before (), without the blanks around it.
 std::optional<std::string_view> text_in_brackets(std::string_view name);
 
+// The text without its last brackets and what is in them.
+std::string without_brackets(std::string_view name);
+
+// "10^-3" for a power of ten that is written with raised digits.
+std::string with_plain_powers(std::string_view text);
+
 // Words between blanks, commas and semicolons.
 std::vector<std::string_view> words_beside_unit(std::string_view text);
 

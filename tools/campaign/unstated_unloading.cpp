@@ -7,6 +7,7 @@
 
 #include "terrain/accelerometer_fusion.hpp"
 #include "tools/campaign/belief_sources.hpp"
+#include "tools/campaign/force_at_depth.hpp"
 
 namespace sandhopper {
 namespace {
@@ -74,9 +75,9 @@ void UnstatedUnloading::add(const CampaignTrial& trial, const TrialRecording& re
   const auto row_of = [&](auto place) {
     return depths.rows[static_cast<std::size_t>(place - depths.depth_m.begin())];
   };
-  const auto force = recording.channel("force_N"), z = recording.channel("foot_z_m");
-  for (std::size_t row = row_of(deepest) + 1; row < recording.rows(); ++row)
-    rows_ += !std::isnan(force[row]) && z[row] < 0.0;
+  const ForceAtDepth pairs(recording);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    rows_ += pairs.rows[i] > row_of(deepest) && pairs.z_m[i] < 0.0;
   ends_.push_back({trial.name, recording.t_s[row_of(last)]});
 }
 

@@ -6,70 +6,95 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "tools/campaign/column_checks.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/only_jump.hpp"
+#include "tools/campaign/signal_noise.hpp"
 
 namespace sandhopper {
 namespace {
 
-constexpr std::size_t kFewestRows = 100;
-
-struct Sample {
-  double t_s, value;
-  std::size_t row;
-};
-
-std::vector<Sample> samples_of(const TrialRecording& recording, std::string_view channel) {
-  const auto values = recording.channel(channel);
-  std::vector<Sample> samples;
-  for (std::size_t row = 0; row < values.size(); ++row)
-    if (!std::isnan(values[row])) samples.push_back({recording.t_s[row], values[row], row});
-  return samples;
-}
-
-// The row after the only large step; 0 without one.
-std::size_t only_jump(const std::vector<Sample>& samples) {
-  constexpr double kTimes = 10.0, kGap = 2.5;
-  std::size_t at = 0;
-  double largest = 0.0, next = 0.0;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double step = std::abs(samples[i].value - samples[i - 1].value);
-    if (step > largest)
-      next = largest, largest = step, at = i;
-    else
-      next = std::max(next, step);
-  }
-  // A glitch jumps back, a gap hides a motion, and what rests on both sides may have moved between two
-  // samples.
-  if (at < 2 || at + 2 >= samples.size() || !(largest > kTimes * next) || !(next > 0.0)) return 0;
-  const double usual_s = (samples.back().t_s - samples.front().t_s) / static_cast<double>(samples.size() - 1);
-  const auto moves = [&](std::size_t i) { return samples[i].value != samples[i - 1].value; };
-  const bool in_motion = moves(at - 1) && moves(at + 1);
-  return in_motion && samples[at].t_s - samples[at - 1].t_s < kGap * usual_s ? at : 0;
-}
+constexpr double kLostRow = 1.5;  // as in are_lost_rows of sample_times.cpp
 
 void check_jump(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel) {
-  const auto samples = samples_of(recording, channel);
-  if (samples.size() < kFewestRows) return;
-  const auto at = only_jump(samples);
+  const auto samples = step_samples(recording, channel);
+  const auto [before, at] = only_jump(samples);
   if (at == 0) return;
   const auto line = places.line_of(samples[at].row);
   doubt_column(
       recording, places, places.is_stated(channel), channel,
       fmt::format("jumps by {:.4g} in line {} and goes on from there, ten times farther than in any "
                   "other row: its zero was set anew, or another recording begins",
-                  samples[at].value - samples[at - 1].value, line),
+                  samples[at].value - samples[before].value, line),
       fmt::format("give each part a [[trial]], select = {{ to_line = {} }} and select = {{ from_line = "
                   "{} }}",
-                  places.line_of(samples[at - 1].row), line));
+                  places.line_of(samples[before].row), line));
+}
+
+// The row of the only step that stands out from both of its neighbours by ten times more than any other two
+// steps that follow each other differ; 0 without one. A stop or a blow changes the speed, so that a step lies
+// between its neighbours.
+std::size_t only_slip(const std::vector<StepSample>& samples) {
+  double largest = 0.0, next = 0.0;
+  std::size_t at = 0;
+  const auto step = [&](std::size_t i) { return samples[i].value - samples[i - 1].value; };
+  for (std::size_t i = 2; i + 1 < samples.size(); ++i) {
+    const double in = step(i) - step(i - 1), out = step(i) - step(i + 1);
+    const double stands_out = in * out > 0.0 ? std::min(std::abs(in), std::abs(out)) : 0.0;
+    if (stands_out > largest) largest = stands_out, at = i;
+  }
+  for (std::size_t i = 2; i < samples.size(); ++i)
+    if (i != at && i != at + 1) next = std::max(next, std::abs(step(i) - step(i - 1)));
+  return largest > kJumpTimes * next && next > 0.0 ? at : 0;
+}
+
+// True if the signal moves clearly within ten samples of both sides: a drive that holds its angle and then
+// turns within one row slips nowhere.
+bool moves_beside(const std::vector<StepSample>& samples, std::size_t at) {
+  constexpr std::size_t kBeside = 10;
+  constexpr double kClear = 5.0;  // in standard deviations of the noise
+  if (at < kBeside || at + kBeside > samples.size()) return false;
+  std::vector<double> values;
+  for (const auto& sample : samples) values.push_back(sample.value);
+  const double clear = kClear * noise_of_bends(values);
+  const auto width = [&](std::size_t begin) {
+    const auto [low, high] = std::ranges::minmax(std::span(values).subspan(begin, kBeside));
+    return high - low;
+  };
+  return width(at - kBeside) > clear && width(at) > clear;
+}
+
+// An encoder on its shaft may slip by less than ten of its steps; its steps change by far less.
+void check_slip(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel) {
+  const auto samples = step_samples(recording, channel);
+  if (samples.empty() || only_jump(samples).after != 0) return;
+  const auto at = only_slip(samples);
+  if (at == 0 || !moves_beside(samples, at)) return;
+  const double usual_s = (samples.back().t_s - samples.front().t_s) / static_cast<double>(samples.size() - 1);
+  if (samples[at].t_s - samples[at - 1].t_s >= kLostRow * usual_s) return;
+  const double usual =
+      0.5 * (samples[at + 1].value - samples[at].value + samples[at - 1].value - samples[at - 2].value);
+  const double slip = samples[at].value - samples[at - 1].value - usual;
+  const auto line = places.line_of(samples[at].row);
+  doubt_column(
+      recording, places, places.is_stated(channel), channel,
+      fmt::format(
+          "goes {:.3g} rad farther in line {} than in the rows beside it, ten times more than its step "
+          "changes in any other row: the encoder slipped on its shaft, or lost counts",
+          slip, line),
+      fmt::format(
+          "give each part a [[trial]] with its own offset of {}, select = {{ to_line = {} }} and select "
+          "= {{ from_line = {} }}",
+          channel, places.line_of(samples[at - 1].row), line));
 }
 
 void check_resolution(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel) {
   constexpr std::size_t kMostValues = 10;
-  const auto samples = samples_of(recording, channel);
-  if (samples.size() < kFewestRows) return;
+  const auto samples = step_samples(recording, channel);
+  if (samples.empty()) return;
   std::set<double> values;
   for (const auto& sample : samples) {
     values.insert(sample.value);
@@ -110,6 +135,11 @@ void check_value_steps(TrialRecording& recording, const RecordingPlaces& places)
   if (recording.has_time)
     for (const auto channel : kPositions)
       if (recording.has(channel)) check_jump(recording, places, channel);
+  constexpr std::array<std::string_view, 3> kAngles{"position_rad", "motor_left_position_rad",
+                                                    "motor_right_position_rad"};
+  if (recording.has_time)
+    for (const auto channel : kAngles)
+      if (recording.has(channel)) check_slip(recording, places, channel);
   constexpr std::array<std::string_view, 4> kSpeeds{
       "velocity_radps", "foot_velocity_mps", "motor_left_velocity_radps", "motor_right_velocity_radps"};
   for (const auto channel : kSpeeds)

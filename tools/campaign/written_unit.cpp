@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/hint.hpp"
+#include "tools/campaign/name_factor.hpp"
 #include "tools/campaign/spelled_units.hpp"
 #include "tools/campaign/unit_spellings.hpp"
 #include "tools/campaign/unit_text.hpp"
@@ -76,7 +77,7 @@ std::optional<WrittenUnit> unit_of_pi(std::string_view text) {
 // A unit with a factor: "x10 N", "0.01 mm", "1/100 mm", "10^-3 m", "1e3 N". A plain number from 1 on is none:
 // "(500 N)" is the range of a load cell.
 std::optional<WrittenUnit> scaled_unit(std::string_view text) {
-  const std::string name = without_blanks(text);
+  const std::string name = with_plain_powers(without_blanks(text));
   std::string_view rest = name;
   bool is_factor = false;
   for (const std::string_view mark : {"x", "X", "*", "\xC3\x97"})
@@ -284,6 +285,19 @@ std::optional<WrittenUnit> unit_with_slash(std::string_view column) {
   return std::nullopt;
 }
 
+// "F / 10^3 N", as ISO 80000-1 writes a quantity in multiples of a unit: 10^3 N. "Cell / 500 N" may be a
+// range: unknown.
+std::optional<WrittenUnit> unit_of_quotient(std::string_view column) {
+  const auto slash = column.find('/');
+  if (slash == std::string_view::npos || slash == 0) return std::nullopt;
+  const auto divisor = trimmed(column.substr(slash + 1));
+  if (const auto unit = scaled_unit(divisor)) return unit;
+  const auto number = divisor.find_first_not_of("0123456789.");
+  if (number == 0 || number == std::string_view::npos || !known_unit(divisor.substr(number)))
+    return std::nullopt;
+  return WrittenUnit{.text = std::string(divisor), .dimension = "", .to_si = 0.0, .beside_factor = true};
+}
+
 WrittenUnit as_acceleration(const WrittenUnit& unit, std::string_view wanted) {
   if ((unit.text != "g" && unit.text != "mg") || wanted != "acceleration") return unit;
   return {unit.text, "acceleration", unit.text == "g" ? 9.80665 : 9.80665e-3};
@@ -315,7 +329,12 @@ std::optional<WrittenUnit> read_unit(std::string_view written, bool in_brackets)
 std::optional<WrittenUnit> unit_in_name(std::string_view written) {
   const std::string plain = in_plain_signs(trimmed(written));
   const auto column = trimmed(plain);
-  if (const auto inner = text_in_brackets(column)) return read_unit(*inner, true);
+  if (const auto inner = text_in_brackets(column)) {
+    auto unit = read_unit(*inner, true);
+    if (unit && name_holds_factor(without_brackets(column))) return unit_beside_factor(column, unit->text);
+    return unit;
+  }
+  if (const auto quotient = unit_of_quotient(column)) return quotient;
   if (stands_alone(column)) return known_unit(column);
   if (const auto unit = unit_in_capitals(column)) return unit;
   if (const auto unit = unit_of_words(column)) return unit;
@@ -335,6 +354,13 @@ std::optional<WrittenUnit> unit_in_name(std::string_view written) {
     if (unit) return unit;
   }
   return unit_behind_a_hump(column);
+}
+
+WrittenUnit unit_beside_factor(std::string_view column, std::string_view unit) {
+  const std::string name = without_brackets(column);
+  std::string text;
+  for (const auto word : words_beside_unit(name)) text += std::string(word) + " ";
+  return {.text = text + std::string(unit), .dimension = "", .to_si = 0.0, .beside_factor = true};
 }
 
 std::optional<WrittenUnit> unit_of_channel(std::string_view channel) {

@@ -7,10 +7,11 @@ namespace sandhopper {
 
 // A unit as users write it: "mm", "N·m", "°", "deg/s", "1/min", "m/s²".
 struct WrittenUnit {
-  std::string text;        // as written, without brackets
-  std::string dimension;   // "length", "force", … as in config/hint.hpp; empty: unknown unit
-  double to_si = 0.0;      // 0: not a plain multiple of the SI unit
-  bool is_certain = true;  // False for one letter after a blank, which may be a label ("Sensor A").
+  std::string text;            // as written, without brackets
+  std::string dimension;       // "length", "force", … as in config/hint.hpp; empty: unknown unit
+  double to_si = 0.0;          // 0: not a plain multiple of the SI unit
+  bool is_certain = true;      // False for one letter after a blank, which may be a label ("Sensor A").
+  bool beside_factor = false;  // A factor stands in the name ("Force x10 (N)"): an unknown unit.
 };
 
 // Reads a unit. Empty for a text that is no unit ("-", "", "total"); an unknown unit in brackets has no
@@ -20,6 +21,9 @@ std::optional<WrittenUnit> read_unit(std::string_view text, bool in_brackets);
 // Unit at the end of a column's name: "Sinkage (mm)", "force_kN", "Winkel [°]", "Speed, rpm", "Kraft / N",
 // "Kraft in N", or the whole name ("rpm").
 std::optional<WrittenUnit> unit_in_name(std::string_view column);
+
+// The unit of a column whose name holds a factor, as "Force x10" above N: unknown.
+WrittenUnit unit_beside_factor(std::string_view column, std::string_view unit);
 
 // Unit of a channel, from its suffix: "foot_z_m" is a length in m.
 std::optional<WrittenUnit> unit_of_channel(std::string_view channel);

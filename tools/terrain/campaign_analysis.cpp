@@ -27,7 +27,7 @@ void analyse_by(const TrialAnalysis& analysis, const CampaignTrial& trial, const
 bool is_found_here(std::string_view key) { return key.starts_with("terrain.") && key != "terrain.rigid"; }
 
 // `fingerprint`: of the recording.
-TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial, std::uint64_t& fingerprint) {
+TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial, Fingerprint& fingerprint) {
   auto recording = read_trial(campaign, trial, is_found_here);
   fingerprint = fingerprint_of(recording);
   leave_out_lost_forces(recording);
@@ -47,11 +47,11 @@ TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial, 
 
 // Takes away the figures of a recording that an earlier trial gave already. A part of a campaign knows only
 // its own trials.
-void count_once(const std::vector<const CampaignTrial*>& trials,
-                const std::vector<std::uint64_t>& fingerprints, std::vector<TrialResult>& results) {
+void count_once(const std::vector<const CampaignTrial*>& trials, std::vector<Fingerprint> fingerprints,
+                std::vector<TrialResult>& results) {
   RepeatedRecordings repeated;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    auto twice = repeated.add(*trials[i], fingerprints[i]);
+    auto twice = repeated.add(*trials[i], std::move(fingerprints[i]));
     if (!twice) continue;
     auto& result = results[i];
     result.usable = false;
@@ -76,7 +76,7 @@ CampaignResults analyse_campaign(const Campaign& campaign, const AnalysisOptions
   for (const auto& trial : campaign.trials)
     if (trial.index % options.parts == options.part - 1) mine.push_back(&trial);
   results.results.resize(mine.size());
-  std::vector<std::uint64_t> fingerprints(mine.size(), 0);
+  std::vector<Fingerprint> fingerprints(mine.size());
   parallel_for(
       static_cast<long>(mine.size()), options.threads,
       [&](long i) {
@@ -87,7 +87,7 @@ CampaignResults analyse_campaign(const Campaign& campaign, const AnalysisOptions
         if (options.progress)
           options.progress(static_cast<std::size_t>(done), static_cast<std::size_t>(total));
       });
-  count_once(mine, fingerprints, results.results);
+  count_once(mine, std::move(fingerprints), results.results);
   return results;
 }
 
