@@ -87,7 +87,6 @@ TEST(ForeignTable, InstrumentHeadersArePassedOverAndSaid) {
 }
 
 // Facts above the names may have as many cells as a row, and numbers in them.
-// Recordings side by side: the times of the shorter one end before the table.
 TEST(ForeignTable, AShorterRecordingBesideALongerOneEndsWhereItsTimesDo) {
   const auto with_times = [](int from, int to) {
     std::string text = "t1,angle1,t2,angle2\n";

@@ -272,10 +272,9 @@ class FallingTrial final : public TrialModel {
     }
     // The zero of an accelerometer that is the only sensor, and that the belief does not describe, may be
     // off.
-    const bool accel_is_described =
-        fall_.belief.value("sensors.accel_noise_mps2") > 0.0 || fall_.impact_s < 0.0;
+    const bool accel_described = fall_.belief.value("sensors.accel_noise_mps2") > 0.0 || fall_.impact_s < 0.0;
     const double bias_sd =
-        spread_of(fall_.belief, "spread.accel_bias_mps2", accel_is_described ? 0.0 : kUnknownBias_mps2);
+        spread_of(fall_.belief, "spread.accel_bias_mps2", accel_described ? 0.0 : kUnknownBias_mps2);
     if (const double sd = bias_sd; sd > 0.0 && trial.find("accel_mps2")) {
       accel_bias_ = static_cast<int>(trial_nuisances.size());
       trial_nuisances.push_back({"accel_bias_mps2", sd, 1e-2});
