@@ -339,7 +339,7 @@ class ProfileSolver {
   Vector<kTerms> kept_moment_{};
   DepthErrors kept_errors_{}, errors_{};  // before and after the moments of this stride
   Between place_{}, kept_place_{};        // of this place with this stride, and without it; Theta is left out
-  // Of the places before at each point of the grid, and of all places in the mean over the grid.
+  // Sums over the places before, at each point of the grid, and over all places, in the mean over the grid.
   std::array<Between, kPlaceGrid> earlier_{};
   Between between_{};
   std::array<double, kStrengths> place_variance_{};  // posterior mean of Theta; zero for one place

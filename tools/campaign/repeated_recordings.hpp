@@ -15,7 +15,7 @@ struct NoisyChannel {
   std::vector<double> t_s, values;
 };
 
-// What recognises a recording.
+// The features by which a recording is recognised.
 struct Fingerprint {
   std::uint64_t exact =
       0;  // of channels and values, not times; 0: another recording could equal it by chance
