@@ -81,10 +81,15 @@ bool drops_rows(CsvFault fault) {
   return fault == CsvFault::ragged_row || fault == CsvFault::no_time || fault == CsvFault::time_backwards;
 }
 
-// True if the rows without a time are all behind the last one with a time: of recordings side by side in one
-// table, this one is the shorter.
+// True if the rows without a time are all behind the last one with a time, and their cells are empty: of
+// recordings side by side in one table, this one is the shorter.
 bool ends_before_table(const CsvIssue& issue, const CsvTable& table) {
-  return issue.fault == CsvFault::no_time && !table.lines.empty() && issue.line > table.lines.back();
+  if (issue.fault != CsvFault::no_time || table.lines.empty() || issue.line <= table.lines.back())
+    return false;
+  return std::ranges::none_of(table.issues, [&](const CsvIssue& other) {
+    return other.name == issue.name && other.fault != CsvFault::no_time &&
+           std::max(other.line, other.last_line) >= issue.line;
+  });
 }
 
 Finding end_of_recording(const CsvIssue& issue, const CsvTable& table, const std::string& file) {

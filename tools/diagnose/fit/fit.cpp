@@ -30,26 +30,6 @@ constexpr double kHeld = 0.25;  // share of the predicted drop that an accepted 
 constexpr double kExhausted = 0.3;
 constexpr double kWorse = 1.0;  // rise of a trial's deviance after which its old nuisances are tried, too
 
-// Moves the parameters by `step`, in the order of parameter_directions(), and clamps them to their bounds.
-// Returns true if the first parameter of an effect met a bound.
-bool move(const Problem& problem, Point& point, const VectorXd& step) {
-  bool bounded = false;
-  Index at = 0;
-  for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
-    const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
-    for (std::size_t j = 0; j < parameters.size(); ++j, ++at) {
-      double& value = point.hypothesis.values[i][j];
-      const double wanted = value + step[at] * parameters[j].typical;
-      value = std::clamp(wanted, parameters[j].low, parameters[j].high);
-      bounded = bounded || (value != wanted && j == 0);
-    }
-  }
-  for (double& size : point.hypothesis.law_sizes) size += step[at++];
-  for (double& value : point.tolerances)
-    value = std::clamp(value + step[at++], -kMostTolerance, kMostTolerance);
-  return bounded;
-}
-
 // State of one trial at a point: nuisances, their prediction, and the deviance with the nuisances' prior.
 struct TrialState {
   std::vector<double> nuisances;
@@ -137,7 +117,7 @@ class Fitter {
       damped.diagonal() *= 1.0 + damping_;
       const VectorXd change = k > 0 ? VectorXd(damped.ldlt().solve(score)) : VectorXd();
       At next = at_;
-      const bool met = move(problem_, next.point, change);
+      const bool met = move_parameters(problem_, next.point, change);
       const Edits moved = edits_for(problem_, next.point.hypothesis, next.point.tolerances);
       each_trial([&](std::size_t t) {
         TrialState& trial = next.trials[t];

@@ -57,6 +57,9 @@ Fit fit_from(const Problem& problem, const Point& start, const FitOptions& optio
 // The free parameters of a point as directions for linearise(), in this order: parameters of the effects (in
 // typical sizes), sizes of the free law's terms, tolerances.
 std::vector<Direction> parameter_directions(const Problem& problem, const Point& point);
+// Moves these parameters by `step`, in the same order, and clamps them to their bounds. Returns true if the
+// first parameter of an effect met a bound.
+bool move_parameters(const Problem& problem, Point& point, const Eigen::VectorXd& step);
 // Adds the priors of these parameters to an information matrix and a score.
 void add_priors(const Problem& problem, const Point& point, Eigen::MatrixXd& information,
                 Eigen::VectorXd& score);

@@ -22,6 +22,24 @@ Eigen::Map<const VectorXd> law_sizes(const Hypothesis& hypothesis) {
 
 }  // namespace
 
+bool move_parameters(const Problem& problem, Point& point, const VectorXd& step) {
+  bool bounded = false;
+  Index at = 0;
+  for (std::size_t i = 0; i < point.hypothesis.candidates.size(); ++i) {
+    const auto& parameters = problem.candidates[point.hypothesis.candidates[i]].parameters;
+    for (std::size_t j = 0; j < parameters.size(); ++j, ++at) {
+      double& value = point.hypothesis.values[i][j];
+      const double wanted = value + step[at] * parameters[j].typical;
+      value = std::clamp(wanted, parameters[j].low, parameters[j].high);
+      bounded = bounded || (value != wanted && j == 0);
+    }
+  }
+  for (double& size : point.hypothesis.law_sizes) size += step[at++];
+  for (double& value : point.tolerances)
+    value = std::clamp(value + step[at++], -kMostTolerance, kMostTolerance);
+  return bounded;
+}
+
 double prior_deviance(const Problem& problem, const Point& point) {
   double sum = 0.0;
   if (const auto sizes = law_sizes(point.hypothesis); sizes.size() > 0)
