@@ -120,14 +120,12 @@ void ProfileSolver::integrate_places() noexcept {
   Information prior;
   add_shared_prior(prior, posterior_.smoothness_m, posterior_.spread);
   const auto shapes = place_shapes();
-  const auto all_at = [&](std::size_t point) {
-    Between all = earlier_[point];
-    add_place(place_, shapes, point, all);
-    return all;
-  };
+  std::array<Between, kPlaceGrid> all_places = earlier_;
   std::array<double, kPlaceGrid> weight{};
-  for (std::size_t g = 0; g < kPlaceGrid; ++g)
-    weight[g] = log_evidence(all_at(g), prior) + std::log(kPlaceWeight[g]);
+  for (std::size_t g = 0; g < kPlaceGrid; ++g) {
+    add_place(place_, shapes, g, all_places[g]);
+    weight[g] = log_evidence(all_places[g], prior) + std::log(kPlaceWeight[g]);
+  }
   const double best = *std::ranges::max_element(weight);
   double total = 0.0;
   for (double& w : weight) {
@@ -138,7 +136,7 @@ void ProfileSolver::integrate_places() noexcept {
   for (std::size_t g = 0; g < kPlaceGrid; ++g) {
     if (weight[g] == 0.0) continue;
     const double w = weight[g] / total;
-    const Between all = all_at(g);
+    const Between& all = all_places[g];
     for (std::size_t i = 0; i < all.normal.size(); ++i) between_.normal[i] += w * all.normal[i];
     for (std::size_t i = 0; i < kTerms; ++i) {
       between_.moment[i] += w * all.moment[i];

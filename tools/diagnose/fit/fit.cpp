@@ -5,9 +5,21 @@
 #include <cmath>
 #include <functional>
 
+#include "tools/diagnose/fit/trial_state.hpp"
 #include "tools/experiment/parallel.hpp"
 
 namespace sandhopper::diagnose {
+
+void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialState& state) {
+  const TrialModel& trial = *problem.trials[t];
+  state.prediction = predicted(problem, trial, edits, state.nuisances);
+  Eigen::VectorXd r = residual_of(trial, state.prediction);
+  whiten(problem, t, r);
+  state.deviance = r.squaredNorm();
+  for (std::size_t i = 0; i < state.nuisances.size(); ++i)
+    state.deviance += std::pow(state.nuisances[i] / trial.sd_of(i), 2);
+}
+
 namespace {
 
 using Eigen::Index;
@@ -29,23 +41,6 @@ constexpr double kHeld = 0.25;  // share of the predicted drop that an accepted 
 // Share of the total gain of these derivatives: after a smaller step they are recomputed.
 constexpr double kExhausted = 0.3;
 constexpr double kWorse = 1.0;  // rise of a trial's deviance after which its old nuisances are tried, too
-
-// State of one trial at a point: nuisances, their prediction, and the deviance with the nuisances' prior.
-struct TrialState {
-  std::vector<double> nuisances;
-  VectorXd prediction;
-  double deviance = 0.0;
-};
-
-void evaluate(const Problem& problem, std::size_t t, const Edits& edits, TrialState& state) {
-  const TrialModel& trial = *problem.trials[t];
-  state.prediction = predicted(problem, trial, edits, state.nuisances);
-  VectorXd r = residual_of(trial, state.prediction);
-  whiten(problem, t, r);
-  state.deviance = r.squaredNorm();
-  for (std::size_t i = 0; i < state.nuisances.size(); ++i)
-    state.deviance += std::pow(state.nuisances[i] / trial.sd_of(i), 2);
-}
 
 // Fits the nuisances of one trial alone by Levenberg-Marquardt; effects and tolerances stay.
 void settle(const Problem& problem, std::size_t t, const Edits& edits,

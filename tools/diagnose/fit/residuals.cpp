@@ -1,11 +1,13 @@
 #include "tools/diagnose/fit/residuals.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "tools/diagnose/fit/fit.hpp"
 #include "tools/diagnose/fit/linearise.hpp"
+#include "tools/diagnose/fit/trial_state.hpp"
 
 namespace sandhopper::diagnose {
 namespace {
@@ -29,45 +31,29 @@ std::vector<VectorXd> changes(const Problem& problem, const Point& point, const 
   return out;
 }
 
-// Deviance of one trial, with the prior of its nuisances.
-double deviance_of(const Problem& problem, std::size_t t, const Edits& edits,
-                   const std::vector<double>& nuisances) {
-  const TrialModel& trial = *problem.trials[t];
-  VectorXd r = residual_of(trial, predicted(problem, trial, edits, nuisances));
-  whiten(problem, t, r);
-  double sum = r.squaredNorm();
-  for (std::size_t i = 0; i < nuisances.size(); ++i) sum += std::pow(nuisances[i] / trial.sd_of(i), 2);
-  return sum;
-}
-
-// Fits the nuisances of one trial from a start, by Gauss-Newton steps; the derivatives are those of each
-// point, or the kept ones if a simulation is slow. A step is shortened until it lowers the deviance. Returns
-// the deviance.
-double settle_from(const Problem& problem, std::size_t t, const Edits& edits,
-                   std::vector<double>& nuisances) {
+// Fits the nuisances of an evaluated trial by Gauss-Newton steps; the derivatives are those of each point, or
+// the kept ones if a simulation is slow. A step is shortened until it lowers the deviance.
+void settle_from(const Problem& problem, std::size_t t, const Edits& edits, TrialState& state) {
   constexpr int kSteps = 5;
-  double deviance = deviance_of(problem, t, edits, nuisances);
+  const bool fresh = !problem.plant->is_costly();
   for (int step = 0; step < kSteps; ++step) {
-    const auto linear =
-        linearise(problem, t, edits, nuisances, {}, {.fresh_columns = !problem.plant->is_costly()});
-    bool lower = false;
+    const auto linear = linearise(problem, t, edits, state.nuisances, {},
+                                  {.fresh_columns = fresh, .prediction = &state.prediction});
+    const double before = state.deviance;
     for (const double share : {1.0, 0.3, 0.1}) {
-      auto next = nuisances;
-      for (std::size_t i = 0; i < next.size(); ++i)
-        next[i] += share * linear.solution(static_cast<Index>(i), 0);
-      const double there = deviance_of(problem, t, edits, next);
-      if (!(there < deviance)) continue;
-      lower = deviance - there > 0.1;
-      deviance = there;
-      nuisances = std::move(next);
+      TrialState next{state.nuisances, {}};
+      for (std::size_t i = 0; i < next.nuisances.size(); ++i)
+        next.nuisances[i] += share * linear.solution(static_cast<Index>(i), 0);
+      evaluate(problem, t, edits, next);
+      if (!(next.deviance < before)) continue;
+      state = std::move(next);
       break;
     }
-    if (!lower) break;
+    if (!(before - state.deviance > 0.1)) return;
   }
-  return deviance;
 }
 
-// What remains of trial `t` with the parameters moved by `step` and its own nuisances fitted, by simulations
+// Residual of trial `t` with the parameters moved by `step` and its own nuisances fitted, by simulations
 // there. The linear model exaggerates a long step: it makes a blow that comes a little later a force. The
 // nuisances begin as the linear model moves them, as they were, and at their prior means.
 VectorXd left_after(const Problem& problem, std::size_t t, const Point& point, const TrialLinear& trial,
@@ -76,18 +62,17 @@ VectorXd left_after(const Problem& problem, std::size_t t, const Point& point, c
   move_parameters(problem, moved, step);
   const Edits edits = edits_for(problem, moved.hypothesis, moved.tolerances);
   const VectorXd follow = trial.solution.col(0) - trial.solution.rightCols(step.size()) * step;
-  std::array<std::vector<double>, 3> starts{point.nuisances[t], point.nuisances[t],
-                                            std::vector<double>(point.nuisances[t].size(), 0.0)};
-  for (std::size_t i = 0; i < starts[0].size(); ++i) starts[0][i] += follow[static_cast<Index>(i)];
-  const std::vector<double>* best = nullptr;
-  double least = 0.0;
+  const auto& as_they_were = point.nuisances[t];
+  auto followed = as_they_were;
+  for (std::size_t i = 0; i < followed.size(); ++i) followed[i] += follow[static_cast<Index>(i)];
+  std::array<TrialState, 3> starts{
+      {{std::move(followed), {}}, {as_they_were, {}}, {std::vector<double>(as_they_were.size(), 0.0), {}}}};
   for (auto& start : starts) {
-    const double deviance = settle_from(problem, t, edits, start);
-    if (best != nullptr && !(deviance < least)) continue;
-    best = &start;
-    least = deviance;
+    evaluate(problem, t, edits, start);
+    settle_from(problem, t, edits, start);
   }
-  return residual_of(*problem.trials[t], predicted(problem, *problem.trials[t], edits, *best));
+  return residual_of(*problem.trials[t],
+                     std::ranges::min_element(starts, {}, &TrialState::deviance)->prediction);
 }
 
 }  // namespace

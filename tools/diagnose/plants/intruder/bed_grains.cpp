@@ -5,12 +5,12 @@
 
 namespace sandhopper::diagnose {
 
-BedGrains::BedGrains(double relative, double length_m, double deepest_m, double closest_m,
+BedGrains::BedGrains(double relative, double length_m, double deepest_m, double spacing_m,
                      std::size_t most_knots) {
   if (relative <= 0.0 || deepest_m <= 0.0) return;
   relative_ = relative;
   length_m_ = length_m;
-  spacing_m_ = closest_m;
+  spacing_m_ = spacing_m;
   // Integral over depth of one knot's weight in the interpolation of unit variance, in spacings: twice the
   // integral of u / sqrt(u^2 + (1 - u)^2) from 0 to 1, which is sqrt(2) asinh(1).
   constexpr double kPart = 1.2465;

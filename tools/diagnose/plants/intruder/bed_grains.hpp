@@ -15,8 +15,8 @@ namespace sandhopper::diagnose {
 class BedGrains {
  public:
   BedGrains() = default;
-  // Knots from the surface to `deepest_m`, no closer than `closest_m`. None if `relative` is 0.
-  BedGrains(double relative, double length_m, double deepest_m, double closest_m, std::size_t most_knots);
+  // Knots every `spacing_m` from the surface to `deepest_m`, at most `most_knots`. None if `relative` is 0.
+  BedGrains(double relative, double length_m, double deepest_m, double spacing_m, std::size_t most_knots);
 
   std::size_t count() const { return count_; }
   double sd() const { return relative_; }
