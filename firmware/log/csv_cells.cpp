@@ -60,7 +60,7 @@ char from_full_width(std::string_view text) {
 
 // Replaces minus signs, digits of full width, apostrophes and spaces beyond ASCII by the usual characters and
 // Fortran's exponent (1.5D-03) by E. Removes the quoting by which a spreadsheet keeps a number as text
-// (="0.5", '0.5).
+// (="0.5", =0.5, '0.5, '0.5').
 std::string plainly_written(std::string_view text) {
   struct Sign {
     std::string_view written;
@@ -72,8 +72,8 @@ std::string plainly_written(std::string_view text) {
                                         {"\xC2\xA0", kGroup},
                                         {"\xE2\x80\xAF", kGroup},
                                         {"\xE2\x80\x89", kGroup}}};
-  if (text.starts_with("=\"") && text.ends_with('"') && text.size() > 3)
-    text = text.substr(2, text.size() - 3);
+  if (text.starts_with('=')) text = trimmed_cell(text.substr(1));
+  if (text.size() > 2 && text.starts_with('\'') && text.ends_with('\'')) text.remove_suffix(1);
   if (text.starts_with('\'')) text.remove_prefix(1);
   std::string out;
   while (!text.empty()) {

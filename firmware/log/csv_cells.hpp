@@ -26,7 +26,7 @@ struct NumberStyle {
 };
 // Empty if the text is no number. A group of thousands has three digits, and no number begins with a group of
 // 0. No-break spaces between groups are accepted in every style. Infinity and NaN are numbers. Also accepted:
-// a minus of U+2212 or an en dash, Fortran's 1.5D-03, and ="0.5" and '0.5 of spreadsheets.
+// a minus of U+2212 or an en dash, Fortran's 1.5D-03, and ="0.5", =0.5, '0.5 and '0.5' of spreadsheets.
 std::optional<double> number_in_cell(std::string_view text, NumberStyle style);
 
 // True for a cell without a sample: empty, NaN, nan, -, --.---, N/A, #N/A, #NV, NULL, #####, …

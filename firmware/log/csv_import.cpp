@@ -1,17 +1,15 @@
 #include "firmware/log/csv_import.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <istream>
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <system_error>
 #include <utility>
 
 #include "firmware/log/csv_row_times.hpp"
+#include "firmware/log/csv_time_code.hpp"
 
 namespace sandhopper {
 namespace {
@@ -30,6 +28,7 @@ class Reading {
       if (is_wanted() && !is_remark(line_) && !trimmed_cell(line_).empty()) read_row();
     leave_out_cut_row();
     explain_back_steps();
+    check_frames();
     note_gaps();
     if (table_.rows() == 0) report_no_rows();
     std::stable_sort(table_.issues.begin(), table_.issues.end(),
@@ -54,20 +53,11 @@ class Reading {
   void split() { split_csv_cells(line_, table_.layout.separator, cells_); }
 
   bool is_text() {
-    if (const auto binary = binary_format_of(lines_.first_bytes())) {
+    const auto other = other_content_of(lines_);
+    if (other)
       report({Severity::error, 1, CsvFault::not_a_text},
-             "is " + std::string(binary->name) + ", not a table; " + std::string(binary->cure));
-      return false;
-    }
-    for (const auto& line : lines_.ahead()) {
-      if (trimmed_cell(line).empty()) continue;
-      const auto other = other_text_of(line);
-      if (other)
-        report({Severity::error, 1, CsvFault::not_a_text},
-               "is " + other->name + ", not a table; " + other->cure);
-      return !other;
-    }
-    return true;
+             "is " + other->name + ", not a table; " + other->cure);
+    return !other;
   }
 
   bool read_header() {
@@ -95,6 +85,10 @@ class Reading {
         return false;
       }
       line_number_ = 1;
+      if (const auto cure = cure_for_transposed(lines_.ahead(), layout); !cure.empty()) {
+        report({Severity::error, 1, CsvFault::not_a_text}, cure);
+        return false;
+      }
       report({Severity::error, 1, CsvFault::no_header},
              "no header: a line above the numbers must name the columns");
       return false;
@@ -195,8 +189,7 @@ class Reading {
       return word->value;
     }
     if (!value)
-      if (const auto time = time_in_cell(cell.text, options_.format.day_first.value_or(false)))
-        return time_of(cell, name, *time);
+      if (const auto time = time_in(cell.text)) return time_of(cell, name, *time);
     const bool is_number = value.has_value();
     report({Severity::error, cell.column, is_number ? CsvFault::not_finite : CsvFault::not_a_number, name},
            "\"" + printable_cell(cell.text) + "\" is not a " + (is_number ? "finite " : "") + "number");
@@ -219,6 +212,15 @@ class Reading {
     });
   }
 
+  // With stated frames per second a time code, otherwise a date or a time of day.
+  std::optional<CellTime> time_in(std::string_view text) {
+    const double frames_per_s = options_.format.frames_per_s;
+    const auto code = frames_per_s > 0.0 ? time_code_in(text) : std::nullopt;
+    if (!code) return time_in_cell(text, options_.format.day_first.value_or(false));
+    frames_.take(*code, line_number_);
+    return CellTime{.s = seconds_of(*code, frames_per_s)};
+  }
+
   double time_of(const TableCell& cell, const std::string& name, CellTime time) {
     const bool is_first = name == options_.time_column;
     const bool is_time = options_.time_column.empty() || is_first || name == options_.second_time_column;
@@ -232,7 +234,7 @@ class Reading {
     if (table_.clocks.empty() || table_.clocks.back() != name) table_.clocks.push_back(name);
     if (time.has_unclear_fraction)
       report({Severity::error, cell.column, CsvFault::ambiguous_time, name},
-             shown + "ends in less than three digits behind a colon: ms, or a part of a second?");
+             shown + "ends in less than three digits behind a colon: frames, ms, or a part of a second?");
     if (time.has_two_parts && !options_.format.minutes_first)
       report({Severity::error, cell.column, CsvFault::ambiguous_time, name},
              shown + "may be minutes and seconds, or hours and minutes");
@@ -323,6 +325,14 @@ class Reading {
     report({Severity::error, 1, CsvFault::names_do_not_fit}, std::move(text));
   }
 
+  // Frames that never reach the number that makes a second, or pass it.
+  void check_frames() {
+    if (const auto doubt = frames_.doubt(options_.format.frames_per_s); !doubt.empty()) {
+      line_number_ = frames_.line();
+      report({Severity::error, 1, CsvFault::ambiguous_time, options_.time_column}, doubt);
+    }
+  }
+
   void note_gaps() {
     if (!time_ || table_.rows() < 3) return;
     const auto& times_s = table_.columns[*time_];
@@ -373,7 +383,8 @@ class Reading {
   std::vector<std::optional<std::size_t>> place_of_cell_;  // index in the table; none: column not used
   std::optional<std::size_t> time_;
   std::vector<double> row_;
-  CsvRowTimes times_;
+  CsvRowTimes times_{options_.format.time_restarts_at};
+  FrameCounts frames_;
   std::optional<double> day_{};  // last date whose day and month may be swapped
   // Length of the last cell in the newest row, in the row before it, and the shortest of all earlier rows.
   std::size_t last_cell_ = 0, previous_cell_ = 0, shortest_cell_ = SIZE_MAX;
@@ -381,20 +392,6 @@ class Reading {
 
 }  // namespace
 
-double median_step_s(const std::vector<double>& t_s) {
-  std::vector<double> steps_s;
-  for (std::size_t i = 1; i < t_s.size(); ++i) steps_s.push_back(t_s[i] - t_s[i - 1]);
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return *middle;
-}
-
 CsvTable read_csv(std::istream& in, const CsvReadOptions& options) { return Reading(in, options).run(); }
-
-CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options) {
-  std::ifstream in(file);
-  if (!in) throw std::system_error(errno, std::generic_category(), file.string());
-  return read_csv(in, options);
-}
 
 }  // namespace sandhopper

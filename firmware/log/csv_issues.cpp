@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
+#include <system_error>
 
 #include "firmware/log/csv_import.hpp"
 
-// Texts of a table's faults, and the look-up functions of CsvTable.
+// Texts of a table's faults, the look-up functions of CsvTable, and reading by the file's name.
 namespace sandhopper {
 
 std::string_view cure_for(CsvFault fault) {
@@ -30,8 +32,9 @@ std::string_view cure_for(CsvFault fault) {
     case CsvFault::date_in_channel:
       return "format the column as numbers before saving, or leave it out";
     case CsvFault::ambiguous_time:
-      return "say which: [format] clock = \"mm:ss\" or \"hh:mm\", or day_first = true or false, in "
-             "campaign.toml";
+      return "say which: [format] frames_per_s = 25 for so many in a second, clock = \"mm:ss\" or \"hh:mm\", "
+             "or "
+             "day_first = true or false, in campaign.toml";
     case CsvFault::several_recordings:
       return "give each recording a [[trial]] with its lines, select = { from_line = 2, to_line = 41 }; a "
              "table "
@@ -91,6 +94,20 @@ std::uint64_t csv_cell_character(const std::filesystem::path& file, std::uint64_
     split_csv_cells(cells_text, layout.separator, cells);
   if (!is_there || number < 1 || number > cells.size()) return 1;
   return cells[number - 1].column + static_cast<std::uint64_t>(cells_text.data() - text.data());
+}
+
+double median_step_s(const std::vector<double>& t_s) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < t_s.size(); ++i) steps_s.push_back(t_s[i] - t_s[i - 1]);
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  return *middle;
+}
+
+CsvTable read_csv(const std::filesystem::path& file, const CsvReadOptions& options) {
+  std::ifstream in(file);
+  if (!in) throw std::system_error(errno, std::generic_category(), file.string());
+  return read_csv(in, options);
 }
 
 }  // namespace sandhopper

@@ -364,10 +364,8 @@ class Finder {
     const auto say = [&](std::string text, bool is_stated = false) {
       if (!is_stated) out_.said.push_back(std::move(text));
     };
-    if (out_.encoding == TextEncoding::utf16_le || out_.encoding == TextEncoding::utf16_be)
-      say("the file is UTF-16 and is read as such", stated_.encoding.has_value());
-    if (out_.encoding == TextEncoding::windows_1252)
-      say("the file is Windows-1252, not UTF-8, and is read as such", stated_.encoding.has_value());
+    for (auto& text : encoding_in_words(out_.encoding, lines_))
+      say(std::move(text), stated_.encoding.has_value());
     const std::uint64_t plain = declared ? 2 : 1, at = out_.header_line;
     const std::string above = at == plain + 1 ? ", the line above is" : ", the lines above are";
     if (at > plain && !stated_.header_line)

@@ -25,7 +25,10 @@ struct CsvFormat {
                                         // digits
   std::optional<bool> day_first{};      // 03/04/2023 is 3 April; false: March 4
   std::optional<bool> minutes_first{};  // 12:30 is 12 min 30 s; false: half past twelve
-  double row_every_s = 0.0;             // period of the rows if the file has no time [s]; 0: not stated
+  double frames_per_s = 0.0;            // 10:00:00:12 is frame 12 of so many in a second; 0: not stated
+  double time_restarts_at = 0.0;  // the time column begins again at 0 there, in its own unit: 60 for the
+                                  // seconds of a minute; 0: it does not
+  double row_every_s = 0.0;       // period of the rows if the file has no time [s]; 0: not stated
 };
 
 struct CsvLayout {
@@ -66,6 +69,13 @@ void split_names(std::string_view line, char separator, std::size_t wanted, std:
 // after every comma, or 1.001 beside 3,5. Empty if there is none.
 std::string ambiguous_cell_in(const std::deque<std::string>& lines, std::size_t first_row,
                               const CsvLayout& layout);
+
+// Messages about an encoding other than UTF-8, and about words that show another one.
+std::vector<std::string> encoding_in_words(TextEncoding encoding, const std::deque<std::string>& lines);
+
+// For a table without a line of names in which each line begins with a name and goes on with numbers: a
+// message that the channels are rows, and its cure. Empty for another table.
+std::string cure_for_transposed(const std::deque<std::string>& lines, const CsvLayout& layout);
 
 // True for a line without cells: blank, or a remark ("#", "%", "//") after the header.
 bool is_remark(std::string_view line);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "firmware/log/csv_code_pages.hpp"
 #include "firmware/log/csv_layout.hpp"
 
 // Functions for one line of a table: its names, remarks and units.
@@ -106,6 +107,70 @@ std::string written_in_two_ways(const std::deque<std::string>& lines, std::size_
 }
 
 }  // namespace
+
+std::vector<std::string> encoding_in_words(TextEncoding encoding, const std::deque<std::string>& lines) {
+  switch (encoding) {
+    case TextEncoding::utf8:
+      return {};
+    case TextEncoding::utf16_le:
+    case TextEncoding::utf16_be:
+      return {"the file is UTF-16 and is read as such"};
+    case TextEncoding::utf32_le:
+    case TextEncoding::utf32_be:
+      return {"the file is UTF-32 and is read as such"};
+    case TextEncoding::windows_1251:
+      return {
+          "the file is not UTF-8, and its words are of Cyrillic letters in Windows-1251: it is read as such; "
+          "if "
+          "its names are garbled save it as UTF-8"};
+    case TextEncoding::mac_roman:
+      return {"the file is Mac Roman, not UTF-8, and is read as such"};
+    case TextEncoding::windows_1252:
+      break;
+  }
+  std::vector<std::string> said{"the file is Windows-1252, not UTF-8, and is read as such"};
+  if (std::ranges::any_of(lines, has_words_beyond_ascii))
+    said.emplace_back(
+        "whole words of it are letters beyond ASCII, as in another code page (KOI8-R, CP866, GB18030): if "
+        "its names "
+        "are garbled save it as UTF-8, for example with iconv -f KOI8-R -t UTF-8 FILE > FILE.csv");
+  return said;
+}
+
+std::string cure_for_transposed(const std::deque<std::string>& lines, const CsvLayout& layout) {
+  constexpr std::size_t kFewestSamples = 3, kShown = 4;
+  std::vector<TableCell> cells;
+  std::vector<std::string> names;
+  for (const auto& line : lines) {
+    if (is_remark(line) || trimmed_cell(line).empty()) continue;
+    split_csv_cells(line, layout.separator, cells);
+    if (cells.size() <= kFewestSamples) return "";
+    const auto is_filled = [&](const TableCell& cell) {
+      return number_in_cell(cell.text, layout.numbers) || time_in_cell(cell.text) || is_no_sample(cell.text);
+    };
+    const auto numbers = std::count_if(cells.begin() + 1, cells.end(), is_filled);
+    if (static_cast<std::size_t>(numbers) + 2 < cells.size())
+      return "";  // a cell with the unit may follow the name
+    if (is_filled(cells.front())) {
+      if (names.empty() && is_no_sample(cells.front().text))
+        continue;  // numbers of the samples above the rows
+      return "";
+    }
+    const std::string name(cells.front().text);
+    if (std::ranges::find(names, name) != names.end()) return "";
+    names.push_back(name);
+  }
+  if (names.size() < 2) return "";
+  std::string text = "holds its channels one below the other (";
+  for (std::size_t i = 0; i < names.size() && i < kShown; ++i)
+    text += (i == 0 ? "\"" : ", \"") + names[i] + '"';
+  const std::string separator = layout.separator == '\t' ? "\\t" : std::string(1, layout.separator);
+  return text + (names.size() > kShown ? ", …" : "") +
+         ") and its samples side by side; exchange rows and columns: python3 -c \"import csv, sys; "
+         "csv.writer(sys.stdout, delimiter='" +
+         separator + "').writerows(zip(*csv.reader(open('FILE'), delimiter='" + separator +
+         "')))\" > FILE.csv, and name that file";
+}
 
 std::string ambiguous_cell_in(const std::deque<std::string>& lines, std::size_t first_row,
                               const CsvLayout& layout) {

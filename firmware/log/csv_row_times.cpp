@@ -1,5 +1,6 @@
 #include "firmware/log/csv_row_times.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace sandhopper {
@@ -27,10 +28,12 @@ CsvRowTimes::Order CsvRowTimes::take(double& time, std::uint64_t line) {
   ++rows_;
   bool wrapped = false;
   if (has_last_ && wraps_ == 0.0 && is_full_counter(last_, time)) wraps_ = kCounter, wrapped = true;
+  if (restarts_at_ > 0.0 && has_last_ && time + wraps_ < last_ - 0.5 * restarts_at_) wraps_ += restarts_at_;
   time += wraps_;
   if (recordings_.size() == 1 && time < previous_) first_before_ = previous_, first_step_ = previous_ - time;
-  if (recordings_.empty() || time < previous_) recordings_.push_back({line, line});
+  if (recordings_.empty() || time < previous_) recordings_.push_back({line, line, time, time});
   recordings_.back().last_line = line;
+  recordings_.back().last = time;
   previous_ = time;
   const auto order = !has_last_ || time > last_ ? (wrapped ? Order::went_on : Order::grows)
                      : time == last_            ? Order::stands
@@ -61,6 +64,25 @@ std::string CsvRowTimes::recordings() const {
   return recordings_.size() > kShown ? text + ", …" : text;
 }
 
+double CsvRowTimes::full_at() const {
+  // Parts of a second in ms and in seconds, seconds and minutes, hours, seconds of an hour and of a day.
+  constexpr std::array kFull{1.0, 24.0, 60.0, 1000.0, 3600.0, kDay_s, 1e6, 1e9};
+  double moved = 0.0;
+  for (const auto& recording : recordings_) moved += recording.last - recording.first;
+  const auto steps = static_cast<double>(rows_ - recordings_.size());
+  if (recordings_.size() < 2 || !(steps > 0.0) || !(moved > 0.0)) return 0.0;
+  const double usual = moved / steps;
+  for (const double full : kFull) {
+    bool fits = 10.0 * usual < full;
+    for (std::size_t i = 1; i < recordings_.size() && fits; ++i) {
+      const double before = recordings_[i - 1].last, after = recordings_[i].first;
+      fits = before <= full && after >= 0.0 && full - before + after <= 2.0 * usual;
+    }
+    if (fits) return full;
+  }
+  return 0.0;
+}
+
 std::string CsvRowTimes::clock_set_back() const {
   // Rows of one recording are less than a minute apart.
   const auto is_back_by = [&](double step) { return std::abs(first_step_ - step) < 60.0; };
@@ -68,6 +90,12 @@ std::string CsvRowTimes::clock_set_back() const {
   if (is_back_by(kHalfDay_s))
     return "; or, because the step is half a day, a clock of 12 hours without AM and PM: export hours from 0 "
            "to 23";
+  if (const double full = full_at(); full > 0.0)
+    return "; or, because it begins again whenever " + shown_number(full) +
+           " is reached, a part of the time as the seconds of a minute: then write [format] time_restarts_at "
+           "= " +
+           shown_number(full) +
+           ", or add the column of the larger part, plus = { column = \"NAME\", scale = … }";
   for (const int bits : {16, 24}) {
     // The largest value, and a step back by nearly all of the counter's values.
     const double values = std::ldexp(1.0, bits);

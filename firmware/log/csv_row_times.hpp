@@ -11,6 +11,9 @@ namespace sandhopper {
 
 class CsvRowTimes {
  public:
+  // `restarts_at`: the time begins again at 0 there, as the seconds of a minute; 0: it does not.
+  explicit CsvRowTimes(double restarts_at = 0.0) : restarts_at_(restarts_at) {}
+
   // Time [s]. A time of day continues beyond midnight; a time with a date is returned unchanged.
   double seconds(const CellTime& time);
 
@@ -25,12 +28,17 @@ class CsvRowTimes {
   enum class BackSteps : std::uint8_t { slips, several_recordings, upside_down };
   BackSteps back_steps() const;
   std::string recordings() const;  // "lines 2 to 41, 43 to 82"
-  // Text of another possible cause: a clock that was set back, e.g. by an hour at the end of summer time.
+  // Text of another possible cause: a clock that was set back, e.g. by an hour at the end of summer time, or
+  // a part of the time that begins again when it is full.
   std::string clock_set_back() const;
 
  private:
   double midnights_s_ = 0.0;
   std::optional<double> last_of_day_s_{};
+  // Value at which the time begins again in each step back, such as 60 s; 0 if there is none.
+  double full_at() const;
+
+  double restarts_at_;
   double wraps_ = 0.0;  // sum of the counter's overflows
   bool has_last_ = false;
   double last_ = 0.0;                             // time of the last kept row
@@ -39,6 +47,7 @@ class CsvRowTimes {
   std::uint64_t rows_ = 0, left_out_ = 0;
   struct Recording {
     std::uint64_t first_line, last_line;
+    double first, last;
   };
   std::vector<Recording> recordings_;
 };

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "firmware/log/csv_cells.hpp"
+#include "firmware/log/csv_code_pages.hpp"
 
 namespace sandhopper {
 namespace {
@@ -58,56 +59,7 @@ constexpr std::array kMagic{
     Magic{"%PDF"sv, {"a PDF", "export the table itself as CSV"}},
     Magic{"\x89MCAP0\r\n"sv, {"an MCAP log", "give it the ending .mcap"}}};
 
-// Characters 0x80 to 0x9F of Windows-1252; the others equal Latin-1. Source: WHATWG Encoding Standard, index
-// windows-1252.
-// Five bytes have no character in Windows-1252. As control characters they would reach a terminal.
-constexpr char32_t kNoCharacter = 0xFFFD;
-constexpr std::array<char32_t, 32> kWindows{
-    0x20AC,       kNoCharacter, 0x201A, 0x0192, 0x201E, 0x2026,       0x2020, 0x2021,
-    0x02C6,       0x2030,       0x0160, 0x2039, 0x0152, kNoCharacter, 0x017D, kNoCharacter,
-    kNoCharacter, 0x2018,       0x2019, 0x201C, 0x201D, 0x2022,       0x2013, 0x2014,
-    0x02DC,       0x2122,       0x0161, 0x203A, 0x0153, kNoCharacter, 0x017E, 0x0178};
-
-void append_utf8(std::string& out, char32_t c) {
-  const auto put = [&](char32_t byte) { out.push_back(static_cast<char>(byte)); };
-  if (c < 0x80) {
-    put(c);
-  } else if (c < 0x800) {
-    put(0xC0 | (c >> 6));
-    put(0x80 | (c & 0x3F));
-  } else if (c < 0x10000) {
-    put(0xE0 | (c >> 12));
-    put(0x80 | ((c >> 6) & 0x3F));
-    put(0x80 | (c & 0x3F));
-  } else {
-    put(0xF0 | (c >> 18));
-    put(0x80 | ((c >> 12) & 0x3F));
-    put(0x80 | ((c >> 6) & 0x3F));
-    put(0x80 | (c & 0x3F));
-  }
-}
-
 unsigned byte_at(std::string_view bytes, std::size_t i) { return static_cast<unsigned char>(bytes[i]); }
-
-// Number of bytes of the UTF-8 character that begins with `first`; 0 if none does.
-std::size_t length_of_character(unsigned first) {
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first < 0xE0) return 2;
-  if (first >= 0xE0 && first < 0xF0) return 3;
-  if (first >= 0xF0 && first < 0xF5) return 4;
-  return 0;
-}
-
-bool is_utf8(std::string_view bytes) {
-  for (std::size_t i = 0; i < bytes.size();) {
-    const std::size_t length = length_of_character(byte_at(bytes, i));
-    if (length == 0) return false;
-    for (std::size_t k = 1; k < length && i + k < bytes.size(); ++k)
-      if ((byte_at(bytes, i + k) & 0xC0) != 0x80) return false;
-    i += length;
-  }
-  return true;
-}
 
 // Names of a line such as "t:0.1,F:2.3" or "t=0.1 F=2.3", with the name before every value. Empty for another
 // line.
@@ -132,6 +84,25 @@ std::vector<std::string> labels_in(std::string_view line) {
   return labels.size() > 1 ? labels : std::vector<std::string>{};
 }
 
+// A small text that stands in for a recording that was not fetched.
+std::optional<OtherText> stand_in_text(std::string_view line) {
+  if (line.starts_with("version https://git-lfs.github.com/spec/") ||
+      line.starts_with("version https://hawser.github.com/spec/"))
+    return OtherText{"a pointer of git LFS to the recording, which was not fetched",
+                     "run git lfs install and git lfs pull in that repository, or download the file itself"};
+  if (line.starts_with("/annex/objects/") || line.starts_with("../.git/annex/objects/") ||
+      line.starts_with(".git/annex/objects/"))
+    return OtherText{"a pointer of git-annex to the recording, which was not fetched",
+                     "run git annex get FILE in that repository (DataLad: datalad get FILE)"};
+  if (line == "outs:")
+    return OtherText{"a pointer of DVC to the recording",
+                     "run dvc pull in that repository, and name the recording "
+                     "itself, without .dvc"};
+  if (line == "404: Not Found" || line == "Not Found" || line.starts_with("AccessDenied"))
+    return OtherText{"the answer of a server that did not send the recording", "download the file again"};
+  return std::nullopt;
+}
+
 std::string from_utf16(std::string_view bytes, bool big_endian) {
   std::string out;
   out.reserve(bytes.size() / 2);
@@ -143,7 +114,7 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
     char32_t c = unit(i);
     const bool pair = c >= 0xD800 && c < 0xDC00 && i + 3 < bytes.size();
     if (pair) c = 0x10000 + ((c - 0xD800) << 10) + ((unit(i += 2) - 0xDC00) & 0x3FF);
-    if (c != 0xFEFF) append_utf8(out, c);
+    if (c != 0xFEFF) put_utf8(out, c);
   }
   return out;
 }
@@ -165,6 +136,7 @@ std::optional<OtherText> other_text_of(std::string_view line) {
         "JSON",
         "write it as a table: python3 -c \"import pandas as pd; pd.read_json('FILE', "
         "lines=True).to_csv('FILE.csv', index=False)\" (without lines=True where it is one list)"};
+  if (auto stand_in = stand_in_text(line)) return stand_in;
   const auto labels = labels_in(line);
   if (labels.empty()) return std::nullopt;
   std::string names;
@@ -175,7 +147,22 @@ std::optional<OtherText> other_text_of(std::string_view line) {
                        names + "] into campaign.toml"};
 }
 
+// UTF-32 if three of four bytes are 0, always on the same side.
+std::optional<TextEncoding> utf32_of(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE\0\0"sv)) return TextEncoding::utf32_le;
+  if (bytes.starts_with("\0\0\xFE\xFF"sv)) return TextEncoding::utf32_be;
+  std::array<std::size_t, 4> zeros{};
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    if (bytes[i] == '\0') ++zeros[i % 4];
+  const std::size_t most = bytes.size() / 5;  // nearly a quarter of all
+  if (zeros[1] < most || zeros[2] < most) return std::nullopt;
+  if (zeros[3] >= most && zeros[0] * 10 < zeros[3]) return TextEncoding::utf32_le;
+  if (zeros[0] >= most && zeros[3] * 10 < zeros[0]) return TextEncoding::utf32_be;
+  return std::nullopt;
+}
+
 TextEncoding encoding_of(std::string_view bytes) {
+  if (const auto wide = utf32_of(bytes)) return *wide;
   if (bytes.starts_with("\xFF\xFE"sv)) return TextEncoding::utf16_le;
   if (bytes.starts_with("\xFE\xFF"sv)) return TextEncoding::utf16_be;
   std::array<std::size_t, 2> zeros{};
@@ -184,7 +171,7 @@ TextEncoding encoding_of(std::string_view bytes) {
   // In UTF-16 digits and separators have one zero byte each, always on the same side.
   if (zeros[1] * 3 > bytes.size() && zeros[0] * 10 < zeros[1]) return TextEncoding::utf16_le;
   if (zeros[0] * 3 > bytes.size() && zeros[1] * 10 < zeros[0]) return TextEncoding::utf16_be;
-  return is_utf8(bytes) ? TextEncoding::utf8 : TextEncoding::windows_1252;
+  return is_utf8(bytes) ? TextEncoding::utf8 : code_page_of(bytes);
 }
 
 std::string utf8_from(std::string_view bytes, TextEncoding encoding) {
@@ -193,14 +180,14 @@ std::string utf8_from(std::string_view bytes, TextEncoding encoding) {
       return from_utf16(bytes, false);
     case TextEncoding::utf16_be:
       return from_utf16(bytes, true);
-    case TextEncoding::windows_1252: {
-      std::string out;
-      for (const char byte : bytes) {
-        const auto c = static_cast<unsigned char>(byte);
-        append_utf8(out, c >= 0x80 && c < 0xA0 ? kWindows[c - 0x80U] : c);
-      }
-      return out;
-    }
+    case TextEncoding::utf32_le:
+      return from_utf32(bytes, false);
+    case TextEncoding::utf32_be:
+      return from_utf32(bytes, true);
+    case TextEncoding::windows_1252:
+    case TextEncoding::windows_1251:
+    case TextEncoding::mac_roman:
+      return from_code_page(bytes, encoding);
     case TextEncoding::utf8:
       break;
   }
@@ -214,7 +201,7 @@ TextLines::TextLines(std::istream& in, std::optional<TextEncoding> encoding, std
   held_.resize(static_cast<std::size_t>(in_.gcount()));
   first_bytes_ = held_.substr(0, 32);
   encoding_ = encoding.value_or(encoding_of(held_));
-  if (encoding_ == TextEncoding::utf16_le || encoding_ == TextEncoding::utf16_be) {
+  if (is_wide(encoding_)) {
     held_.append(std::istreambuf_iterator<char>(in_), {});
     held_ = utf8_from(held_, encoding_);
   }
@@ -273,14 +260,24 @@ bool TextLines::read(std::string& line) {
   if (!raw_line(line)) return false;
   while (line.ends_with('\r')) line.pop_back();
   // A file whose space was allocated beforehand (SD card) ends in zeros.
-  if (encoding_ == TextEncoding::utf8 || encoding_ == TextEncoding::windows_1252) std::erase(line, '\0');
+  if (!is_wide(encoding_)) std::erase(line, '\0');
   const auto has_high_byte = [&] {
     return std::any_of(line.begin(), line.end(), [](char c) { return (c & 0x80) != 0; });
   };
-  const bool other = encoding_ == TextEncoding::windows_1252 ||
-                     (encoding_ == TextEncoding::utf8 && has_high_byte() && !is_utf8(line));
-  if (other) line = utf8_from(line, TextEncoding::windows_1252);
+  const bool is_page = !is_wide(encoding_) && encoding_ != TextEncoding::utf8;
+  if (is_page)
+    line = utf8_from(line, encoding_);
+  else if (encoding_ == TextEncoding::utf8 && has_high_byte() && !is_utf8(line))
+    line = utf8_from(line, TextEncoding::windows_1252);
   return true;
+}
+
+std::optional<OtherText> other_content_of(const TextLines& lines) {
+  if (const auto binary = binary_format_of(lines.first_bytes()))
+    return OtherText{std::string(binary->name), std::string(binary->cure)};
+  for (const auto& line : lines.ahead())
+    if (!trimmed_cell(line).empty()) return other_text_of(line);
+  return std::nullopt;
 }
 
 }  // namespace sandhopper

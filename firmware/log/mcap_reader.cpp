@@ -23,7 +23,11 @@ constexpr std::array kOtherFormats{
     OtherFormat{"SQLite format 3"sv, "it is a rosbag2 of the sqlite3 kind: mcap convert FILE OTHER.mcap"},
     OtherFormat{"#ROSBAG V2"sv, "it is a bag of ROS 1: mcap convert FILE OTHER.mcap"},
     OtherFormat{"LOGG"sv,
-                "it is a Vector BLF log of CAN frames: hop replay --can FILE says how to convert it"}};
+                "it is a Vector BLF log of CAN frames: hop replay --can FILE says how to convert it"},
+    OtherFormat{"version https://git-lfs.github.com/spec/"sv,
+                "it is a pointer of git LFS to a log that was not fetched: git lfs pull"},
+    OtherFormat{"/annex/objects/"sv,
+                "it is a pointer of git-annex to a log that was not fetched: git annex get FILE"}};
 
 std::string first_bytes_are(Bytes file) {
   for (const auto& other : kOtherFormats)

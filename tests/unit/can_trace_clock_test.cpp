@@ -95,5 +95,27 @@ TEST(CanTraceClock, AFullSecondAsOldAsc2logWritesItIsNoTenth) {
   EXPECT_EQ(report.motors[0].missed, 0U);
 }
 
+TEST(CanTraceClock, ATraceThatBeginsWithinAnExchangeHasNoUnaskedReply) {
+  TraceText trace;
+  trace.reply(kReply - kMs, 1);
+  for (int i = 0; i < 40; ++i) trace.command(i * kMs, 1).reply(i * kMs + kReply, 1);
+  const auto report = trace.report();
+  EXPECT_EQ(report.motors[0].unasked, 0U);
+  EXPECT_TRUE(report.trusted());
+  TraceText twice;
+  twice.reply(kReply - 2 * kMs, 1).reply(kReply - kMs, 1);
+  for (int i = 0; i < 40; ++i) twice.command(i * kMs, 1).reply(i * kMs + kReply, 1);
+  EXPECT_EQ(twice.report().motors[0].unasked, 1U);
+}
+
+TEST(CanTraceClock, RepliesThatAreStampedBeforeTheirCommandsAreSaid) {
+  TraceText trace;
+  for (int i = 0; i < 40; ++i) trace.reply(i * kMs - 0.37e-3, 1).command(i * kMs, 1);
+  const auto report = trace.report();
+  EXPECT_THAT(text_of(report, "late_replies"), HasSubstr("stamped before their own commands"));
+  EXPECT_THAT(text_of(report, "unasked_replies"), Not(HasSubstr("came unasked")));
+  EXPECT_FALSE(report.trusted());
+}
+
 }  // namespace
 }  // namespace sandhopper::trace

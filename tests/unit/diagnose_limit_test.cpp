@@ -35,6 +35,8 @@ TEST(DiagnoseLimit, SaysThatNothingIsKnownIfItPassesAtOnce) {
   EXPECT_EQ(to_json(d)["verdict"], "insufficient_time");
   EXPECT_EQ(to_json(d)["stopped_by_limit_in"], d.stopped_in);
   EXPECT_THAT(to_text(d), HasSubstr("limit of time ended the search"));
+  ASSERT_FALSE(d.residuals.empty()) << "those of the belief are known";
+  for (const auto& row : d.residuals) EXPECT_NEAR(row.after, row.before, row.noise_sd);
 }
 
 TEST(DiagnoseLimit, NamesWhatIsFoundSoFarAndWhatWasNotLookedAt) {

@@ -79,5 +79,6 @@ std::vector<ForeignCondition> conditions_of_samples();
 std::vector<ForeignCondition> conditions_of_sampling();
 std::vector<ForeignCondition> conditions_of_clocks();
 std::vector<ForeignCondition> conditions_of_texts();
+std::vector<ForeignCondition> conditions_of_forms();
 
 }  // namespace sandhopper

@@ -21,7 +21,7 @@ std::vector<ForeignCondition> all_conditions() {
   auto all = conditions_of_times();
   for (const auto& more :
        {conditions_of_cells(), conditions_of_tables(), conditions_of_units(), conditions_of_samples(),
-        conditions_of_sampling(), conditions_of_clocks(), conditions_of_texts()})
+        conditions_of_sampling(), conditions_of_clocks(), conditions_of_texts(), conditions_of_forms()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -292,4 +292,11 @@ std::string to_string(const UsedNumber& n) {
   return fmt::format("{} = {}{}{} ({})", n.key, value, n.unit.empty() ? "" : " ", n.unit, n.source_text);
 }
 
+bool is_replaced(std::string_view path, const Belief& belief) {
+  if (path != "terrain.stiffness_N_per_m") return false;
+  const auto numbers = numbers_of(belief);
+  const auto per_area = numbers.find("terrain.stiffness_per_area_N_per_m3");
+  return per_area != numbers.end() && per_area->second > 0.0;
+}
+
 }  // namespace sandhopper

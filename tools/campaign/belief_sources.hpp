@@ -64,4 +64,7 @@ std::vector<Finding> placeholder_notes(const Campaign& campaign,
 // a key that is used and not stated: sensors.position_noise_m where mocap_noise_m counts.
 std::vector<Finding> unused_key_notes(const Campaign& campaign);
 
+// True for the stiffness of a bed whose law is that with a stiffness per area.
+bool is_replaced(std::string_view path, const Belief& belief);
+
 }  // namespace sandhopper

@@ -22,7 +22,8 @@ struct AddedColumn {
   double scale = 1.0;
 };
 
-// channel = scale x column + offset; for the time also + plus.scale x plus.column.
+// channel = scale x column + offset; for the time also + plus.scale x plus.column; for other channels also +
+// the `added` columns, each in its own unit.
 struct ColumnMapping {
   std::string channel{};
   std::string column{};
@@ -32,6 +33,7 @@ struct ColumnMapping {
   std::string unit{};         // Unit of the column's numbers as the user states it; empty if not stated.
   bool has_scale = false;     // True if the mapping states a scale.
   AddedColumn plus{};
+  std::vector<std::string> added{};  // further columns of the same quantity: two load cells below one plate
 
   // The user states both, so values are taken as stated even if they are implausible.
   bool is_stated() const { return !unit.empty() && has_scale; }
@@ -114,6 +116,7 @@ struct Campaign {
 // Reads FOLDER/campaign.toml (or that file itself) and its model. Besides name, plant, model, [columns] and
 // [[trial]] with file, kind and set-up, a trial may have:
 //   columns = { foot_z_m = { column = "Z", scale = 0.001, offset = -0.01 } }   its own mapping
+//   columns = { force_N = { column = ["A (N)", "B (N)"] } }                    the sum of two load cells
 //   columns = { t_s = { column = "secs", plus = { column = "nsecs", scale = 1e-9 } } }
 //   select  = { column = "drop", value = 2, from_s = 1.0, to_s = 3.0 }         some rows of its file,
 //             or { from_line = 2, to_line = 41 }

@@ -13,9 +13,11 @@
 #include "tools/campaign/column_guess.hpp"
 #include "tools/campaign/column_rivals.hpp"
 #include "tools/campaign/draft_format.hpp"
+#include "tools/campaign/draft_mappings.hpp"
 #include "tools/campaign/draft_setups.hpp"
 #include "tools/campaign/plant_guess.hpp"
 #include "tools/campaign/read_table.hpp"
+#include "tools/campaign/side_by_side.hpp"
 #include "tools/campaign/text_checks.hpp"
 #include "tools/campaign/unit_check.hpp"
 #include "tools/campaign/used_column.hpp"
@@ -58,6 +60,7 @@ class Drafter {
         throw std::runtime_error(describe_issue(issue));
     if (table_.names.empty()) throw std::runtime_error(files_.front().string() + " holds no table");
     look_again(format);
+    sides_ = recordings_side_by_side(table_);
   }
   // Takes what only the text shows: units outside the names, and a sign that may divide thousands.
   void look_again(const CsvFormat& format) {
@@ -86,7 +89,7 @@ class Drafter {
   void guess_columns() {
     time_ = time_like_column(table_, out_.plant);
     for (const auto i : in_order_of_choice(table_.names)) {
-      if (time_ == i || table_.names[i] == "t_s") continue;
+      if (time_ == i || table_.names[i] == "t_s" || is_of_other_side(i)) continue;
       if (auto guess = guess_column(table_.names[i], unit_of(i), out_.plant, guesses_)) {
         guess->column = i;
         choose_axis(*guess);
@@ -95,7 +98,8 @@ class Drafter {
     }
     if (out_.plant != rotary_axis) return;
     std::vector<std::optional<WrittenUnit>> units;
-    for (std::size_t i = 0; i < table_.names.size(); ++i) units.push_back(unit_of(i));
+    for (std::size_t i = 0; i < table_.names.size(); ++i)
+      units.push_back(is_of_other_side(i) ? std::nullopt : unit_of(i));
     if (auto guess = guess_torque_by_current(table_.names, units, guesses_)) guesses_.push_back(*guess);
   }
 
@@ -135,9 +139,14 @@ class Drafter {
               "three is no substitute: it has no sign and takes a turning body for a force");
   }
 
+  // True for a column of another recording than the first of those side by side.
+  bool is_of_other_side(std::size_t i) const {
+    return !sides_.empty() &&
+           std::ranges::find(sides_.front(), i, &SideColumn::column) == sides_.front().end();
+  }
+
   bool is_taken(std::string_view channel) const {
-    return std::any_of(guesses_.begin(), guesses_.end(),
-                       [&](const ColumnGuess& g) { return g.channel == channel; });
+    return std::ranges::find(guesses_, channel, &ColumnGuess::channel) != guesses_.end();
   }
 
   void describe() {
@@ -167,7 +176,10 @@ class Drafter {
       if (is_unused(i)) unused.push_back(table_.names[i]);
     if (!unused.empty()) said.push_back(fmt::format("not used: {}", fmt::join(unused, ", ")));
     const auto times = std::ranges::count_if(table_.names, is_called_time);
-    if (times > 1)
+    if (!sides_.empty())
+      said.push_back(fmt::format("{} recordings side by side: a [[trial]] with columns of its own for each",
+                                 sides_.size()));
+    else if (times > 1)
       said.push_back(
           fmt::format("{} columns are called a time: recordings side by side need a [[trial]] each with "
                       "`columns` of its own",
@@ -181,11 +193,10 @@ class Drafter {
 
   // A force against a depth needs no time.
   void find_faults() {
-    const bool is_press = is_taken("foot_z_m") && is_taken("force_N");
     const std::string header =
         fmt::format("; line {} is taken for the names: if that is wrong, state header_line in [format]",
                     table_.layout.header_line);
-    if (!time_ && table_.find("t_s") == nullptr && !is_press)
+    if (!time_ && table_.find("t_s") == nullptr && !(is_taken("foot_z_m") && is_taken("force_N")))
       out_.wrong.push_back(
           "no column is a time: write t_s = { column = \"NAME\", unit = \"s\" } into [columns], or "
           "row_every_s into [format]" +
@@ -203,24 +214,21 @@ class Drafter {
 
   std::string time_words() const {
     const auto& name = table_.names[*time_];
-    const auto other = other_part_of_time();
-    if (other) return fmt::format("t_s is column \"{}\" and column \"{}\"", name, table_.names[other->first]);
-    const auto rivals = rivals_in_words(table_, rivals_of_time(table_, *time_));
+    if (const auto other = other_part_of_time())
+      return fmt::format("t_s is column \"{}\" and column \"{}\"", name, table_.names[other->first]);
+    const auto rivals = sides_.empty() ? rivals_in_words(table_, rivals_of_time(table_, *time_)) : "";
     return fmt::format("t_s is column \"{}\"{}", name, rivals.empty() ? "" : "; " + rivals);
   }
 
   bool is_unused(std::size_t i) const {
     const auto other = time_ ? other_part_of_time() : std::nullopt;
-    return time_ != i && (!other || other->first != i) && table_.names[i] != "t_s" &&
+    return time_ != i && !is_of_other_side(i) && (!other || other->first != i) && table_.names[i] != "t_s" &&
            std::none_of(guesses_.begin(), guesses_.end(),
                         [&](const ColumnGuess& g) { return g.column == i; });
   }
 
   std::string folder_name() const {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(files_.front()))
-        .parent_path()
-        .filename()
-        .string();
+    return fs::weakly_canonical(fs::absolute(files_.front())).parent_path().filename().string();
   }
 
   std::string campaign() const {
@@ -241,46 +249,19 @@ class Drafter {
     return without && g.channel == "accel_mps2" ? 9.81 : 0.0;
   }
 
-  std::string mapping(std::string_view channel, const std::string& column, std::string_view unit,
-                      double scale, double offset = 0.0, const std::string& plus = "") const {
-    std::string literal = column;
-    std::string escaped;
-    for (const char c : literal) {
-      if (c == '"' || c == '\\') escaped += '\\';
-      escaped += c;
-    }
-    const std::string number = fmt::format("{:.12g}", scale);
-    const bool real = number.find_first_of(".e") != std::string::npos;
-    // `unit` and `scale` together mean that the user confirms the values, which switches the checks off. So a
-    // draft writes the unit alone, or a scale alone if the sign changes.
-    std::string how = fmt::format("unit = \"{}\"", unit);
-    if (scale < 0.0) how = fmt::format("scale = {}{}", number, real ? "" : ".0");
-    if (scale < 0.0 && unit == kUnknownUnit) how = fmt::format("unit = \"{}\", {}", kUnknownUnit, how);
-    return fmt::format("{} = {{ column = \"{}\", {}{}{} }}\n", channel, escaped, how,
-                       offset == 0.0 ? "" : fmt::format(", offset = {}", offset), plus);
-  }
-
   std::string columns() const {
     std::string text =
         "\n[columns]   # channel = column of the file, its unit, and the scale from that unit to the "
         "channel's\n";
-    if (time_) text += time_line();
+    if (!sides_.empty()) text += "# recordings side by side: each [[trial]] names its own columns\n";
+    if (time_ && sides_.empty()) text += time_line();
     for (const auto& g : guesses_) {
+      if (!sides_.empty()) break;
       const auto wanted = unit_of_channel(g.channel);
-      const bool unknown = !g.unit && wanted && g.channel != table_.names[g.column];
       if (const auto words = choice_words(g.channel); !words.empty())
         text += fmt::format("# {}: {}\n", g.channel, words);
-      if (g.asks_scale) {
-        text += torque_question(g);
-        continue;
-      }
-      text += mapping(g.channel, table_.names[g.column],
-                      g.unit    ? g.unit->text
-                      : unknown ? kUnknownUnit
-                      : wanted  ? wanted->text
-                                : "",
-                      g.scale, offset_of(g));
-      if (unknown)
+      text += mapping_line_of(g);
+      if (!g.asks_scale && has_unknown_unit(g))
         text.insert(text.size() - 1,
                     fmt::format("   # the file states no unit: write \"{}\" if it is so, and the scale to it",
                                 wanted->text));
@@ -288,18 +269,26 @@ class Drafter {
     for (const auto& channel : known_channels())
       if (channel.plant == out_.plant && !is_taken(channel.name)) {
         const auto wanted = unit_of_channel(channel.name);
-        text += "# " + mapping(std::string(channel.name), "NAME", wanted ? wanted->text : "", 1.0);
+        text += "# " + draft_mapping(std::string(channel.name), "NAME", wanted ? wanted->text : "", 1.0);
       }
     for (std::size_t i = 0; i < table_.names.size(); ++i)
       if (is_unused(i)) text += fmt::format("# not used: column \"{}\"\n", table_.names[i]);
     return text;
   }
 
-  std::string torque_question(const ColumnGuess& g) const {
-    return fmt::format(
-        "torque_Nm = {{ column = {}, unit = {}, scale = \"?\" }}   # a current: write the torque constant at "
-        "the axis, in N m per {}; if this is not the motor's current, remove the line\n",
-        toml_text(table_.names[g.column]), toml_text(g.unit->text), g.unit->text);
+  bool has_unknown_unit(const ColumnGuess& g) const {
+    return !g.unit && unit_of_channel(g.channel) && g.channel != table_.names[g.column];
+  }
+
+  std::string mapping_line_of(const ColumnGuess& g) const {
+    const auto wanted = unit_of_channel(g.channel);
+    if (g.asks_scale) return draft_torque(table_.names[g.column], g.unit->text);
+    return draft_mapping(g.channel, table_.names[g.column],
+                         g.unit                ? g.unit->text
+                         : has_unknown_unit(g) ? kUnknownUnit
+                         : wanted              ? wanted->text
+                                               : "",
+                         g.scale, offset_of(g));
   }
 
   std::string time_line() const {
@@ -318,7 +307,8 @@ class Drafter {
     const bool is_clock = std::ranges::find(table_.clocks, table_.names[*time_]) != table_.clocks.end();
     const bool is_unknown = unit ? !known : doubt_time(values, "").has_value();
     const bool is_doubtful = !is_clock && scale == 1.0 && is_unknown;
-    return mapping("t_s", table_.names[*time_], is_doubtful ? kUnknownUnit : name, scale, 0.0, second_time());
+    return draft_mapping("t_s", table_.names[*time_], is_doubtful ? kUnknownUnit : name, scale, 0.0,
+                         second_time());
   }
 
   // The column with the other part of the time and its scale: "header.stamp.nsecs" for "header.stamp.secs",
@@ -358,10 +348,33 @@ class Drafter {
     for (const auto& file : files_) {
       std::error_code error;
       auto name = fs::proximate(fs::absolute(file), fs::absolute(folder_), error);
-      text +=
+      const auto entry =
           fmt::format("\n[[trial]]\nfile = \"{}\"\n", (error ? fs::absolute(file) : name).generic_string());
+      if (sides_.empty()) text += entry;
+      for (const auto& side : sides_) text += entry + columns_of(side);
     }
     return text;
+  }
+
+  // The mappings of the first recording with the columns of another one, if it has them.
+  std::string columns_of(const SideRecording& side) const {
+    std::string text;
+    const auto column_like = [&](std::size_t i) {
+      const auto own = std::ranges::find(sides_.front(), i, &SideColumn::column);
+      const auto found = std::ranges::find(side, own->base, &SideColumn::base);
+      return found == side.end() ? std::string() : table_.names[found->column];
+    };
+    const auto add = [&](std::string line, std::size_t i) {
+      const auto name = column_like(i);
+      if (name.empty()) return;
+      const auto own = toml_text(table_.names[i]);
+      line.replace(line.find(own), own.size(), toml_text(name));
+      line.erase(line.rfind('}') + 1);  // the end of the line, and a remark
+      text += (text.empty() ? "" : ", ") + line;
+    };
+    if (time_ && !is_of_other_side(*time_)) add(time_line(), *time_);
+    for (const auto& g : guesses_) add(mapping_line_of(g), g.column);
+    return "columns = { " + text + " }\n";
   }
 
   const std::vector<fs::path>& files_;
@@ -369,6 +382,7 @@ class Drafter {
   fs::path folder_;
   const std::vector<std::string>& names_;  // Names of the columns if the file has none.
   CsvTable table_;
+  std::vector<SideRecording> sides_;  // empty: one recording
   std::optional<std::size_t> time_;
   std::vector<ColumnGuess> guesses_;
   std::map<std::string, VectorAxes> axes_of_channel_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "tools/campaign/cell_forms.hpp"
+
 namespace sandhopper {
 namespace {
 
@@ -34,6 +36,12 @@ bool are_groups(const std::vector<std::size_t>& lengths, std::size_t inner) {
          std::all_of(lengths.begin() + 1, lengths.end() - 1, [&](std::size_t n) { return n == inner; });
 }
 
+bool is_decimal_comma(std::string_view cell) {
+  if (cell.starts_with('-') || cell.starts_with('+')) cell.remove_prefix(1);
+  return is_plain_number(cell) && std::ranges::count(cell, ',') == 1 &&
+         cell.find('.') == std::string_view::npos;
+}
+
 std::string cure_for_text(std::string_view cell, char separator) {
   if (cell.ends_with('-') && is_plain_number(cell.substr(0, cell.size() - 1))) cell.remove_suffix(1);
   if (cell.starts_with('(') && cell.ends_with(')') && is_plain_number(cell.substr(1, cell.size() - 2)))
@@ -51,15 +59,9 @@ std::string cure_for_text(std::string_view cell, char separator) {
                : "if the comma divides thousands write [format] thousands = \",\" into campaign.toml, if it "
                  "is a "
                  "decimal comma decimal = \",\"";
-  const bool is_comma = std::ranges::count(cell, ',') == 1 && cell.find('.') == std::string_view::npos;
-  if (is_comma) return "if that is a decimal comma write [format] decimal = \",\" into campaign.toml";
-  constexpr std::string_view kDigits = "0123456789";
-  const bool has_letters_behind =
-      cell.size() > 1 && kDigits.find(cell.back()) == std::string_view::npos &&
-      (kDigits.find(cell.front()) != std::string_view::npos || cell.front() == '-');
-  if (has_letters_behind)
-    return "if the cells hold a unit or a prefix (k, m) behind the number, write the unit into the column's "
-           "name and numbers alone below it";
+  if (is_decimal_comma(cell))
+    return "if that is a decimal comma write [format] decimal = \",\" into campaign.toml";
+  if (const auto form = form_of_cell(cell)) return "that is " + form->name + ": " + form->cure;
   return "";
 }
 

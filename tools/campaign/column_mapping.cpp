@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "config/hint.hpp"
+#include "tools/campaign/column_rivals.hpp"
 #include "tools/campaign/config_number.hpp"
+#include "tools/campaign/read_table.hpp"
 #include "tools/campaign/setup_vocabulary.hpp"
 #include "tools/campaign/unit_check.hpp"
 
@@ -49,6 +52,8 @@ class TableReader {
     const auto number = number_of(part);
     if (part.key == "column" && part.kind == Kind::text)
       mapping.column = part.text;
+    else if (part.key == "column" && part.kind == Kind::array && mapping.channel != "t_s")
+      return read_sum(part, mapping);
     else if (part.key == "scale" && number)
       mapping.scale = *number, mapping.has_scale = true;
     else if (part.key == "scale" && part.kind == Kind::text && part.text == kUnknownNumber)
@@ -61,6 +66,19 @@ class TableReader {
       return read_plus(part, mapping.plus);
     else
       return false;
+    return true;
+  }
+
+  static bool read_sum(const ConfigNode& list, ColumnMapping& mapping) {
+    mapping.added.clear();
+    for (const auto& part : list.children) {
+      const bool is_new = std::ranges::find(mapping.added, part.text) == mapping.added.end();
+      if (part.kind != Kind::text || part.text.empty() || !is_new) return false;
+      mapping.added.push_back(part.text);
+    }
+    if (mapping.added.empty()) return false;
+    mapping.column = mapping.added.front();
+    mapping.added.erase(mapping.added.begin());
     return true;
   }
 
@@ -117,6 +135,23 @@ class TableReader {
 
 ColumnTable read_column_table(const ConfigNode& table, CampaignPlant plant, const std::string& file) {
   return TableReader(plant, file).run(table);
+}
+
+ColumnUnits column_units(const CsvTable& table, const std::vector<std::string>& sources, std::size_t column,
+                         const ColumnMapping& mapping) {
+  double largest = 0.0;
+  for (const double value : table.columns[column])
+    if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
+  const bool has_own_unit = !mapping.added.empty() && mapping.unit.empty() && !mapping.has_scale;
+  const auto own = has_own_unit ? unit_of_column(table, column) : std::nullopt;
+  return {.column = table.names[column],
+          .channel = mapping.channel,
+          .row_unit = table.units[column],
+          .row_source = column < sources.size() ? sources[column] : "",
+          .stated_unit = own ? own->text : mapping.unit,
+          .scale = mapping.scale,
+          .has_scale = mapping.has_scale,
+          .largest = largest};
 }
 
 }  // namespace sandhopper

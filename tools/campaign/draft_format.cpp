@@ -15,8 +15,8 @@ std::string draft_format(const CsvLayout& l, const std::vector<std::string>& nam
   text += fmt::format("{}decimal     = \"{}\"\n", mark, l.numbers.decimal);
   text += fmt::format("{}thousands   = \"{}\"   # \"\": none\n", mark,
                       l.numbers.thousands == '\0' ? std::string() : std::string(1, l.numbers.thousands));
-  text +=
-      fmt::format("encoding    = \"{}\"   # utf-8, utf-16, utf-16-be or windows-1252\n", name_of(l.encoding));
+  text += fmt::format("encoding    = \"{}\"   # {}\n", name_of(l.encoding),
+                      fmt::join(EnumNames<TextEncoding>::value, ", "));
   text += fmt::format("header_line = {}   # of the columns' names; 0: none, and `names` gives them\n",
                       l.header_line);
   text += fmt::format("units_line  = {}   # 0: none\n", l.units_line);
@@ -26,6 +26,8 @@ std::string draft_format(const CsvLayout& l, const std::vector<std::string>& nam
       "# no_sample    = [\"OVER\", \"-999\"]   # further cells without a sample; NaN, -, #N/A are known\n";
   text += "# clock        = \"mm:ss\"   # 12:30 is 12 min 30 s; \"hh:mm\": half past twelve\n";
   text += "# day_first    = true   # 03/04/2023 is 3 April\n";
+  text += "# frames_per_s = 25   # 10:00:00:12 is frame 12 of so many in a second\n";
+  text += "# time_restarts_at = 60   # a time that begins again at 0 there, as the seconds of a minute\n";
   text += "# row_every_s  = 0.001   # for a file without times: from row to row\n";
   text += "# spread_times = true   # rows that share a time came evenly\n";
   return text;

@@ -97,15 +97,40 @@ class FallChecker {
                              : "a throw of 15 m/s (no larger release_speed_mps is stated)";
       const auto what =
           fmt::format("changes by {:.4g} m within {:.3g} s, faster than {} and a fall", way, t, limit);
-      if (const auto held = most_behind_repeats(is_too_fast); !held.empty())
+      if (is_rising(first, sample))
+        add(what + "; it rises, and nothing in the belief drives it upward", rising_cure(way / t));
+      else if (const auto held = most_behind_repeats(is_too_fast); !held.empty())
         add(what + held,
             "leave the cell empty where there is no new sample, also in the first row if it repeats the one "
             "before it");
       else
-        add(what, speed_cure(way / t));
+        add(what, speed_cure(way / t) + driven_cure(first, sample));
       return true;
     }
     return false;
+  }
+
+  // A body that goes up from its first row on, to the upper end of its way. One that falls in a column that
+  // counts downward does so, too: it begins at rest, at an end of the numbers, and ends fastest. A throw or a
+  // shot is slowed by gravity: its way in the second half of the time is shorter.
+  bool is_rising(const Sample& first, const Sample& fast) const {
+    const auto top = std::ranges::max_element(all_, {}, &Sample::height_m);
+    return fast.height_m > first.height_m && place(first) < 0.2 && top->t_s > fast.t_s &&
+           all_.back().height_m < top->height_m;
+  }
+  static std::string driven_cure(const Sample& first, const Sample& fast) {
+    return fast.height_m > first.height_m
+               ? "; if a motor drives it upward (a rocket), no plant describes that part of its way"
+               : "";
+  }
+  static std::string rising_cure(double speed_mps) {
+    return fmt::format(
+        "if it is thrown or shot up, write release_speed_mps = {:.3g} into its [[trial]]; if a motor drives "
+        "it (a "
+        "rocket), no plant describes that part: keep the rows after the motor has stopped, select = {{ "
+        "from_s = … }}, "
+        "with the speed there as release_speed_mps; else correct unit, scale or sign of the height",
+        speed_mps);
   }
 
   // check_held_heights has emptied the repeats of held samples. Each that is left was taken at any time since
@@ -179,10 +204,13 @@ class FallChecker {
     cure +=
         "; if it sinks, write the medium's density_kg_per_m3 and drag into nominal.toml; else correct unit "
         "or scale";
-    add(fmt::format(
-            "takes {:.3g} s for {:.3g} m, and a body that is let go falls so far in {:.2g} s: it is pushed "
-            "or lowered, or it sinks slowly, or the height or the time is in another unit",
-            took_s, width_, fall_s),
+    add(fmt::format("takes {:.3g} s for {:.3g} m, and a body that is let go falls so far in {:.2g} s: {}, or "
+                    "the height or "
+                    "the time is in another unit",
+                    took_s, width_, fall_s,
+                    end > start
+                        ? "it is lifted or driven upward, or it sinks slowly and its height counts downward"
+                        : "it is pushed or lowered, or it sinks slowly"),
         cure, !force.empty());
     return !force.empty();
   }
@@ -190,10 +218,14 @@ class FallChecker {
   bool check_direction() {
     if (is_thrown() || place(all_.front()) >= 0.2 || place(all_.back()) <= 0.8) return false;
     const auto* column = places_.column_of(kHeight);
-    add("ends highest and begins lowest, where a body that is let go falls: it counts downward, and the "
-        "channel "
-        "counts upward; a throw says release_speed_mps",
-        column == nullptr ? "" : fmt::format("write {} into [columns]", mapping_line(reversed(*column))));
+    add("ends highest and begins lowest, where a body that is let go falls: it rises, or it counts downward "
+        "and the channel counts upward; a throw says release_speed_mps",
+        column == nullptr
+            ? ""
+            : fmt::format(
+                  "if it counts downward write {} into [columns]; if it rises (a rocket, a balloon) keep the "
+                  "part in which nothing drives it, with release_speed_mps",
+                  mapping_line(reversed(*column))));
     return true;
   }
 

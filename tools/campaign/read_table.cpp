@@ -186,11 +186,11 @@ class TableReader {
   void describe_format() {
     const auto& layout = out_.table.layout;
     if (out_.own_log || layout.said.empty() || any_unusable(findings_)) return;
-    const bool utf16 = layout.encoding == TextEncoding::utf16_le || layout.encoding == TextEncoding::utf16_be;
     add(FindingKind::file_format, note, std::max<std::uint64_t>(layout.header_line, 1),
         fmt::format("{}", fmt::join(layout.said, "; ")),
-        utf16 ? "save it as CSV UTF-8 to read it everywhere; [format] in campaign.toml states it otherwise"
-              : "state it otherwise with [format] in campaign.toml if that is wrong");
+        is_wide(layout.encoding)
+            ? "save it as CSV UTF-8 to read it everywhere; [format] in campaign.toml states it otherwise"
+            : "state it otherwise with [format] in campaign.toml if that is wrong");
   }
 
   void add(FindingKind kind, FindingSeverity severity, std::uint64_t line, std::string what,

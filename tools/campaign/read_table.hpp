@@ -6,6 +6,7 @@
 
 #include "firmware/log/csv_import.hpp"
 #include "tools/campaign/trial_recording.hpp"
+#include "tools/campaign/unit_check.hpp"
 
 namespace sandhopper {
 
@@ -33,6 +34,11 @@ const ColumnMapping* mapping_of(const CampaignTrial& trial, std::string_view cha
 const std::vector<double>* find_column(const CsvTable& table, std::string_view name);
 // The mapped time column, else t_s; null if there is neither.
 const std::vector<double>* time_column(const CsvTable& table, const CampaignTrial& trial);
+
+// A column for check_unit. `sources`: TrialTable::unit_sources. Columns that are added are each in the unit
+// of their own, unless the mapping states one.
+ColumnUnits column_units(const CsvTable& table, const std::vector<std::string>& sources, std::size_t column,
+                         const ColumnMapping& mapping);
 
 // The column of a hop's phase, and the words that it may hold in place of 0, 1, 2, in one sentence.
 std::string phase_column(const CampaignTrial& trial);

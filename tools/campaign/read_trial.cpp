@@ -15,11 +15,13 @@
 #include "tools/campaign/frozen_rows.hpp"
 #include "tools/campaign/full_counters.hpp"
 #include "tools/campaign/joined_press.hpp"
+#include "tools/campaign/number_doubts.hpp"
 #include "tools/campaign/plant_doubt.hpp"
 #include "tools/campaign/position_loop.hpp"
 #include "tools/campaign/read_table.hpp"
 #include "tools/campaign/sample_checks.hpp"
 #include "tools/campaign/sample_times.hpp"
+#include "tools/campaign/second_cells.hpp"
 #include "tools/campaign/shared_columns.hpp"
 #include "tools/campaign/trial_recording.hpp"
 #include "tools/campaign/trial_rows.hpp"
@@ -29,14 +31,6 @@ namespace sandhopper {
 namespace {
 
 using enum FindingSeverity;
-
-// True for the stiffness of a bed whose law is that with a stiffness per area.
-bool is_replaced(std::string_view path, const Belief& belief) {
-  if (path != "terrain.stiffness_N_per_m") return false;
-  const auto numbers = numbers_of(belief);
-  const auto per_area = numbers.find("terrain.stiffness_per_area_N_per_m3");
-  return per_area != numbers.end() && per_area->second > 0.0;
-}
 
 class Reader {
  public:
@@ -96,6 +90,8 @@ class Reader {
       else
         leave(i);
     }
+    if (auto cell = second_cell(table_, file_, campaign_, trial_); cell && !out_.own_log)
+      out_.findings.push_back(std::move(*cell));
   }
 
   void take_time() {
@@ -197,24 +193,10 @@ class Reader {
     take(index_of(*column), mapping);
   }
 
-  ColumnUnits units_of(std::size_t i, const ColumnMapping& mapping) const {
-    double largest = 0.0;
-    for (const double value : table_.columns[i])
-      if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
-    return {.column = table_.names[i],
-            .channel = mapping.channel,
-            .row_unit = table_.units[i],
-            .row_source = i < unit_sources_.size() ? unit_sources_[i] : "",
-            .stated_unit = mapping.unit,
-            .scale = mapping.scale,
-            .has_scale = mapping.has_scale,
-            .largest = largest};
-  }
-
   // Factor to the channel's unit; empty if the file and the mapping contradict each other.
   std::optional<double> unit_scale(std::size_t i, const ColumnMapping& mapping) {
     if (out_.own_log) return mapping.scale;
-    const auto units = units_of(i, mapping);
+    const auto units = column_units(table_, unit_sources_, i, mapping);
     if (const auto exchanged = find_exchange(table_, trial_, campaign_.plant, units))
       return complain_of_unit(i, mapping, trial_unusable, exchanged->what, exchanged->cure), std::nullopt;
     const auto verdict = check_unit(units);
@@ -222,6 +204,7 @@ class Reader {
       complain_of_unit(i, mapping, note, verdict.overruled, "taken as stated in [columns]");
     if (verdict.problem.empty()) {
       places_.columns.push_back(used_column(units, verdict.scale, mapping.offset, mapping.is_stated()));
+      places_.columns.back().added = mapping.added;
       return verdict.scale;
     }
     complain_of_unit(i, mapping, trial_unusable, verdict.problem, verdict.cure);
@@ -238,17 +221,16 @@ class Reader {
 
   void take(std::size_t i, const ColumnMapping& mapping) {
     used_[i] = true;
-    if (std::find(unusable_columns_.begin(), unusable_columns_.end(), table_.names[i]) !=
-        unusable_columns_.end())
-      return;
+    if (is_unusable(i)) return;
     const auto scale = unit_scale(i, mapping);
     if (!scale) return;
     auto values = table_.columns[i];
     const bool empty =
         std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
     if (empty) return;  // Treat it like a missing column.
-    if (!out_.own_log) look_at_numbers(i, mapping, values);
+    if (!out_.own_log) look_at_numbers(i, mapping);
     if (!out_.own_log) tell_done(i, mapping, put_register_back(values));
+    if (!add_columns(mapping, *scale, values)) return;
     for (double& value : values) value = *scale * value + mapping.offset;
     if (!out_.own_log && mapping.channel.ends_with("position_rad"))
       tell_done(i, mapping, put_angle_back(values));
@@ -256,24 +238,39 @@ class Reader {
     places_.numbers.push_back(table_.numbers[i]);
   }
 
-  void look_at_numbers(std::size_t i, const ColumnMapping& mapping, const std::vector<double>& values) {
-    const auto line = [&](std::size_t row) { return row < table_.lines.size() ? table_.lines[row] : 1; };
-    if (const auto fill = fill_value_in(values))
-      add(FindingKind::implausible, mapping.is_stated() ? note : trial_unusable, line(fill->first_row), 1,
-          table_.names[i],
-          fmt::format("reads {:.10g} in {} rows, far from all others: written where there is no sample?",
-                      fill->value, fill->rows),
-          mapping.is_stated()
-              ? "taken as stated in [columns]"
-              : fmt::format(
-                    "if so write [format] no_sample = [\"{:.10g}\"]; if it was measured, state unit and "
-                    "scale of the column",
-                    fill->value));
-    const auto* time = time_column(table_, trial_);
-    if (time != nullptr && equals_time(values, *time))
-      add(FindingKind::implausible, trial_unusable, line(0), 1, table_.names[i],
-          "holds the same numbers as the time: the names stand over the wrong columns",
-          "export the table again, or give names = [...] in [format] with header_line = 0");
+  void look_at_numbers(std::size_t i, const ColumnMapping& mapping) {
+    for (auto& finding : doubts_of_numbers(table_, file_, trial_, i, mapping.is_stated()))
+      out_.findings.push_back(std::move(finding));
+  }
+
+  bool is_unusable(std::size_t i) const {
+    return std::ranges::find(unusable_columns_, table_.names[i]) != unusable_columns_.end();
+  }
+
+  // Adds the further columns of a mapping to the values of the first, in its unit. False: a finding says why
+  // not.
+  bool add_columns(const ColumnMapping& mapping, double scale, std::vector<double>& values) {
+    for (const auto& name : mapping.added) {
+      const auto* column = find_column(table_, name);
+      if (column == nullptr)
+        return complain_at(mapping.position, FindingKind::missing_column, trial_unusable, mapping.channel,
+                           fmt::format("no column is called \"{}\"; the columns are {}", name,
+                                       fmt::join(table_.names, ", ")),
+                           "correct column = [\"NAME\", \"NAME\"]"),
+               false;
+      const auto i = index_of(*column);
+      auto other = mapping;
+      other.column = name, used_[i] = true;
+      if (is_unusable(i)) return false;
+      const auto verdict = check_unit(column_units(table_, unit_sources_, i, other));
+      if (!verdict.problem.empty())
+        return complain_of_unit(i, other, trial_unusable, verdict.problem, verdict.cure), false;
+      look_at_numbers(i, other);
+      auto more = *column;
+      tell_done(i, other, put_register_back(more));
+      for (std::size_t row = 0; row < values.size(); ++row) values[row] += verdict.scale / scale * more[row];
+    }
+    return true;
   }
 
   void tell_done(std::size_t i, const ColumnMapping& mapping, const std::string& done) {
@@ -283,22 +280,11 @@ class Reader {
   }
 
   void leave(std::size_t i) {
-    const auto& name = table_.names[i];
-    out_.unused_columns.push_back(name);
-    const auto misnamed = misnamed_unit(name, campaign_.plant);
-    if (!misnamed || table_.find(misnamed->channel) != nullptr ||
-        mapping_of(trial_, misnamed->channel) != nullptr)
-      return;
-    const auto cure =
-        misnamed->scale
-            ? fmt::format("add {} = {{ column = \"{}\", scale = {:.10g} }} to [columns]", misnamed->channel,
-                          name, *misnamed->scale)
-            : fmt::format("say what it is in SI units: {} = {{ column = \"{}\", scale = … }} in [columns]",
-                          misnamed->channel, name);
-    add(FindingKind::unknown_unit, channel_unusable, table_.layout.header_line, header_character(i), name,
-        fmt::format("looks like channel {} in the unit \"{}\", which is not the channel's; column left out",
-                    misnamed->channel, misnamed->unit),
-        cure);
+    out_.unused_columns.push_back(table_.names[i]);
+    auto finding = misnamed_column(table_, file_, campaign_.plant, trial_, i);
+    if (!finding) return;
+    finding->column = header_character(i);
+    out_.findings.push_back(std::move(*finding));
   }
 
   // Drops findings in columns that are not used.
@@ -316,11 +302,25 @@ class Reader {
     const bool own = std::any_of(out_.channels.begin(), out_.channels.end(), [&](const auto& channel) {
       return find_channel(campaign_.plant, channel.name) != nullptr;
     });
-    if (own) return;
+    if (own || any_lost_column()) return;
     auto doubt = doubt_plant(table_, campaign_.plant);
     add(doubt.kind, trial_unusable, table_.layout.header_line,
         doubt.first ? header_character(*doubt.first) : 1, std::move(doubt.channel), std::move(doubt.what),
         doubt.cure);
+  }
+
+  // True if a column of a channel holds no numbers. Its own message names it, and no other column is in
+  // doubt.
+  bool any_lost_column() {
+    const auto is_of_channel = [&](const std::string& name) {
+      return find_channel(campaign_.plant, name) != nullptr ||
+             std::ranges::find(trial_.columns, name, &ColumnMapping::column) != trial_.columns.end();
+    };
+    const auto lost = std::ranges::find_if(unusable_columns_, is_of_channel), end = unusable_columns_.end();
+    if (lost == end) return false;
+    add(FindingKind::missing_column, trial_unusable, table_.layout.header_line, 1, *lost,
+        "no channel is left: the cells of this column are no numbers", "see its own message");
+    return true;
   }
 
   void select_rows() {

@@ -20,6 +20,7 @@
 #include "tools/campaign/plausible.hpp"
 #include "tools/campaign/press_speed_check.hpp"
 #include "tools/campaign/rate_check.hpp"
+#include "tools/campaign/repeated_code.hpp"
 #include "tools/campaign/rest_before_fall.hpp"
 #include "tools/campaign/sample_times.hpp"
 #include "tools/campaign/sensor_signs.hpp"
@@ -42,6 +43,7 @@ void check_surfaces(TrialRecording& recording, const Campaign& campaign, const C
 
 void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places) {
+  if (check_repeated_codes(recording, places)) return;
   check_held_samples(recording, places);
   check_held_heights(recording, campaign, places);
   check_interpolated(recording, places);

@@ -40,14 +40,19 @@ class FormatReader {
       format_.day_first = node.boolean;
       return;
     }
-    if (node.key == "row_every_s") return row_every(node);
+    if (node.key == "row_every_s") return above_0(node, "time between two rows, in s", format_.row_every_s);
+    if (node.key == "frames_per_s")
+      return above_0(node, "number of frames in a second", format_.frames_per_s);
+    if (node.key == "time_restarts_at")
+      return above_0(node, "time at which the column begins again at 0", format_.time_restarts_at);
     if (node.key == "spread_times" && node.kind == Kind::boolean) {
       format_.spread_times = node.boolean;
       return;
     }
-    static const std::vector<std::string> kKeys{"separator",    "decimal",    "thousands", "encoding",
-                                                "header_line",  "units_line", "names",     "no_sample",
-                                                "spread_times", "clock",      "day_first", "row_every_s"};
+    static const std::vector<std::string> kKeys{"separator",    "decimal",         "thousands", "encoding",
+                                                "header_line",  "units_line",      "names",     "no_sample",
+                                                "spread_times", "clock",           "day_first", "row_every_s",
+                                                "frames_per_s", "time_restarts_at"};
     wrong(node, cure_for_unknown_key(node.key, std::nullopt, kKeys));
   }
   std::vector<ConfigProblem> take_problems() { return std::move(problems_); }
@@ -90,12 +95,12 @@ class FormatReader {
     format_.minutes_first = node.text == "mm:ss";
   }
 
-  void row_every(const ConfigNode& node) {
-    const double step_s = node.kind == Kind::real      ? node.real
-                          : node.kind == Kind::integer ? static_cast<double>(node.integer)
-                                                       : 0.0;
-    if (!(step_s > 0.0)) return wrong(node, "is no time between two rows, in s");
-    format_.row_every_s = step_s;
+  void above_0(const ConfigNode& node, std::string_view what, double& out) {
+    const double value = node.kind == Kind::real      ? node.real
+                         : node.kind == Kind::integer ? static_cast<double>(node.integer)
+                                                      : 0.0;
+    if (!(value > 0.0)) return wrong(node, fmt::format("is no {}", what));
+    out = value;
   }
 
   void words(const ConfigNode& node, std::vector<std::string>& out) {

@@ -56,6 +56,8 @@ class TextChecker {
       if (find_channel(campaign_.plant, table_.names[i]) != nullptr) use(i, table_.names[i]);
     for (const auto& mapping : trial_.columns) {
       if (const auto* column = find_column(table_, mapping.column)) use(index_of(*column), mapping.channel);
+      for (const auto& name : mapping.added)
+        if (const auto* column = find_column(table_, name)) use(index_of(*column), mapping.channel);
       const auto& second = mapping.plus.column;
       if (const auto* column = second.empty() ? nullptr : find_column(table_, second))
         is_used_[index_of(*column)] = true;

@@ -62,11 +62,18 @@ std::string toml_text(std::string_view text) {
   return escaped + "\"";
 }
 
+std::string column_text(const std::string& column, const std::vector<std::string>& added) {
+  if (added.empty()) return toml_text(column);
+  std::string text = "[" + toml_text(column);
+  for (const auto& name : added) text += ", " + toml_text(name);
+  return text + "]";
+}
+
 std::string mapping_line(const UsedColumn& column) {
   const auto unit = column.unit.empty() ? "" : fmt::format(", unit = {}", toml_text(column.unit));
   const auto offset = column.offset == 0.0 ? "" : fmt::format(", offset = {:.9g}", column.offset);
-  return fmt::format("{} = {{ column = {}{}, scale = {:.9g}{} }}", column.channel, toml_text(column.column),
-                     unit, column.scale, offset);
+  return fmt::format("{} = {{ column = {}{}, scale = {:.9g}{} }}", column.channel,
+                     column_text(column.column, column.added), unit, column.scale, offset);
 }
 
 std::string confirming_line(const UsedColumn& column) {

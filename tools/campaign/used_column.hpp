@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "tools/campaign/unit_check.hpp"
 
@@ -13,8 +14,9 @@ struct UsedColumn {
       unit{};  // Unit of the column's numbers; empty if nobody states it and `scale` is that of no unit.
   double scale = 1.0;
   double offset = 0.0;
-  bool in_file = false;    // True if the file itself (name or row of units) states this unit.
-  bool is_stated = false;  // True if its mapping states `unit` and `scale`.
+  bool in_file = false;              // True if the file itself (name or row of units) states this unit.
+  bool is_stated = false;            // True if its mapping states `unit` and `scale`.
+  std::vector<std::string> added{};  // further columns that are added to it
 };
 
 // `scale`: the factor that check_unit found.
@@ -34,6 +36,9 @@ std::string confirming_line(const UsedColumn& column);
 
 // Advice for a channel with doubtful values: correct its scale, or confirm it with the line that is given.
 std::string scale_cure(const UsedColumn& column);
+
+// `column` of a mapping: "A", or ["A", "B"] for columns that are added.
+std::string column_text(const std::string& column, const std::vector<std::string>& added);
 
 // A text between quotation marks of TOML.
 std::string toml_text(std::string_view text);

@@ -206,7 +206,9 @@ ExitCode diagnose(Session& session, const Options& options) {
   }
   if (options.residuals) {
     write(folder / "residuals.csv", sandhopper::diagnose::residuals_csv(diagnosis));
-    session.say("residuals: {}", (folder / "residuals.csv").string());
+    session.say(
+        "residuals: {}{}", (folder / "residuals.csv").string(),
+        diagnosis.residuals.empty() ? " (no row: no trial could be compared with the simulation)" : "");
   }
   session.say("answer: {}", (folder / "diagnosis.json").string());
   if (options.report) {

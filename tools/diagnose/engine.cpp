@@ -131,9 +131,13 @@ void report_around(Problem& problem, const Recordings& recordings, const Recordi
     diagnosis.corrected_model_toml = corrected_model(recordings, problem, diagnosis);
 }
 
-// The answer after a limit of time that ended the search before an effect was found needed.
-void report_too_little_time(const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
+// The answer after a limit of time that ended the search before an effect was found needed. Its residuals are
+// those of the belief.
+void report_too_little_time(const Problem& problem, const Search& search,
+                            const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
   diagnosis.verdict = Verdict::insufficient_time;
+  const auto& belief = search.null().fit.point;
+  report_residuals(problem, residuals_of(problem, belief, belief), diagnosis);
   report_data_faults(faults, diagnosis);
 }
 
@@ -179,7 +183,7 @@ Diagnosis diagnose(const Recordings& recordings, const EngineOptions& asked) {
     name_likeliest(problem, search, diagnosis.log);
   drop_names_in_vain(problem, search, diagnosis);
   if (search.stopped() && search.best().set.empty()) {
-    report_too_little_time(faults, diagnosis);
+    report_too_little_time(problem, search, faults, diagnosis);
     return finished(problem);
   }
   if (!search.best().set.empty()) keep_columns(problem, search.best().fit.point);

@@ -38,7 +38,10 @@ class Pairing {
       return;
     }
     if (!newest_.waiting) {
-      ++e_.unasked;
+      // The first frame may answer a command from before the recording.
+      const bool is_first = e_.commands == 0 && !e_.begins_with_reply;
+      e_.begins_with_reply |= is_first;
+      e_.unasked += !is_first;
       return;
     }
     if (before_.waiting) missed();
@@ -146,6 +149,7 @@ Exchange examine_exchange(const std::vector<Frame>& frames, const Roles& roles, 
   if (!answers) {
     e.missed = e.most_missed = e.late = e.unasked = 0;
     e.latest_ns = 0;
+    e.begins_with_reply = false;
     e.worst_share = 1.0;
     count_missing_by_period(e, replies);
   }

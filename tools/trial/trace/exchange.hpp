@@ -29,10 +29,11 @@ struct Exchange {
   std::uint64_t late = 0;         // replies that came later than the bus can delay one
   std::int64_t latest_ns = 0;     // longest time from command to reply
   std::uint64_t unasked = 0;      // replies without a command
-  std::uint64_t malformed = 0;    // replies with an invalid length
-  std::uint64_t ambiguous = 0;    // frames that may be commands or replies
-  std::int64_t period_ns = 0;     // median time between commands, or between replies if there are no commands
-  double worst_share = 1.0;       // smallest answered share of 50 commands in a row
+  bool begins_with_reply = false;  // one reply before the first command: the recording began in between
+  std::uint64_t malformed = 0;     // replies with an invalid length
+  std::uint64_t ambiguous = 0;     // frames that may be commands or replies
+  std::int64_t period_ns = 0;  // median time between commands, or between replies if there are no commands
+  double worst_share = 1.0;    // smallest answered share of 50 commands in a row
   Gap longest_gap{};
 };
 

@@ -51,6 +51,23 @@ void find_unasked(const Exchange& e, const std::string& who, Findings& out) {
          "give two drives with the same can_id different ones; see that the trace has the commands", false});
 }
 
+// If the trace begins with a reply and most replies are late, each may have been stamped before its own
+// command and be taken for the answer to the command before.
+void find_late(const Exchange& e, const std::string& who, Findings& out) {
+  if (e.late == 0) return;
+  Finding finding{
+      "late_replies",
+      fmt::format("{}: {} replies came later than the bus alone can delay them, the latest {:.3g} ms "
+                  "after its command",
+                  who, e.late, milliseconds(e.latest_ns))};
+  if (e.begins_with_reply && 2 * e.late > e.replies) {
+    finding.text += "; as the trace begins with a reply, they may be stamped before their own commands";
+    finding.cure = "record commands and replies on one interface with its own stamps: candump -L -H can0";
+    finding.trusted = false;
+  }
+  out.push_back(finding);
+}
+
 }  // namespace
 
 Findings exchange_findings(const Exchange& e, const CubeMarsConfig& motor, Evidence evidence,
@@ -64,11 +81,7 @@ Findings exchange_findings(const Exchange& e, const CubeMarsConfig& motor, Evide
                    "record with the direction of each frame, on the computer that sends them: candump -L -x",
                    false});
   find_missed(e, who, limits, out);
-  if (e.late > 0)
-    out.push_back({"late_replies",
-                   fmt::format("{}: {} replies came later than the bus alone can delay them, the latest "
-                               "{:.3g} ms after its command",
-                               who, e.late, milliseconds(e.latest_ns))});
+  find_late(e, who, out);
   find_unasked(e, who, out);
   if (e.commands_twice > 0)
     out.push_back({"doubled_commands",

@@ -53,6 +53,11 @@ constexpr std::array kMagics{
     Magic{"\xfd"
           "7zXZ"sv,
           "compressed with xz", "xz -dc '{0}' > '{1}'"},
+    Magic{"version https://git-lfs.github.com/spec/"sv,
+          "a pointer of git LFS to a trace that was not fetched",
+          "git lfs install, then git lfs pull in that repository"},
+    Magic{"/annex/objects/"sv, "a pointer of git-annex to a trace that was not fetched",
+          "git annex get '{0}' in that repository"},
     Magic{"\xff\xfe"sv, "UTF-16 text, as PowerShell's > writes it", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"},
     Magic{"\xfe\xff"sv, "UTF-16 text", "iconv -f UTF-16 -t UTF-8 '{0}' > '{1}'"}};
 
