@@ -29,6 +29,32 @@ TEST(DiagnoseClipping, ALimitThatIsMetInShortBlowsIsASaturation) {
   EXPECT_EQ(faults.front().limit, 50.0);
 }
 
+// Steps between 0 and 0.1 N m, then a sweep. `sd_Nm`: noise of a sensor that reads at most 0.1 N m.
+std::vector<Trial> steps_and_sweeps(double sd_Nm) {
+  std::vector<Trial> trials(4);
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    Random random(7, t);
+    for (int i = 0; i < 800; ++i) {
+      const double time_s = 0.005 * i;
+      trials[t].time_s.push_back(time_s);
+      const double stepped = i < 100 || i > 600 ? 0.0 : 0.1,
+                   swept = 0.08 * std::sin(2.0 * std::numbers::pi * (0.3 + 1.2 * time_s) * time_s);
+      trials[t].channels["torque_Nm"].push_back(
+          std::min(0.1, (t < 2 ? stepped : swept) + sd_Nm * random.normal()));
+    }
+  }
+  return trials;
+}
+
+// A commanded torque has no noise: it stands at its largest value because it was commanded.
+TEST(DiagnoseClipping, ACommandThatStepsToItsLargestValueIsNoSaturation) {
+  auto commanded = steps_and_sweeps(0.0), measured = steps_and_sweeps(1e-3);
+  EXPECT_TRUE(remove_data_faults(commanded).empty());
+  const auto faults = remove_data_faults(measured);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().id, "sensor.saturation");
+}
+
 TEST(DiagnoseClipping, SamplesThatPileUpAtALimitAreASaturation) {
   auto recordings = drops([](double, double, double v) { return -0.02 * std::abs(v) * v; });
   for (auto& trial : recordings.trials)

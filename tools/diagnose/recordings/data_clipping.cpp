@@ -96,6 +96,23 @@ bool noise_is_missing(double at_end, std::size_t in_a_row, double noise, double 
   return boost::math::cdf(boost::math::complement(repeats, static_cast<double>(in_a_row - 1))) < kBeyondDoubt;
 }
 
+// True if the channel jumps to this value from another value that stands still, and from it to such a value:
+// a step of a command. A clipped quantity approaches its limit, or its noise shows beside it.
+bool is_stepped_to(const std::vector<SampledChannel>& samples, double end) {
+  std::size_t steps = 0;
+  for (const auto& s : samples) {
+    const auto& v = s.value;
+    for (std::size_t i = 1; i < v.size(); ++i) {
+      const bool enters = v[i] == end && v[i - 1] != end, leaves = v[i] != end && v[i - 1] == end;
+      if (!enters && !leaves) continue;
+      if (enters && i >= 2 && v[i - 1] != v[i - 2]) return false;
+      if (leaves && i + 1 < v.size() && v[i] != v[i + 1]) return false;
+      ++steps;
+    }
+  }
+  return steps > 0;
+}
+
 // The largest or smallest value of the channel, if samples pile up there; the one of larger magnitude if they
 // do at both. 0: no limit. A trial of one value shows no limit: its torque may be that of a weight.
 double limit_of(const std::vector<SampledChannel>& samples, double low, double high, double total,
@@ -118,6 +135,7 @@ double limit_of(const std::vector<SampledChannel>& samples, double low, double h
     if (at_end < kPileUp * total && in_a_row < kInARow) continue;
     if (noise < kGridSteps * grid && !noise_is_missing(at_end, in_a_row, noise, grid)) continue;
     if (limit != 0.0 && std::abs(end) < std::abs(limit)) continue;
+    if (is_stepped_to(samples, end)) continue;
     limit = end;
   }
   return limit;
