@@ -263,8 +263,14 @@ Search searched(Problem& problem, const Recordings& clean, const Settled& settle
 Search search_in_rounds(Prepared& prepared, Recordings& clean, const EngineOptions& options,
                         BalanceLaw& balance, Diagnosis& diagnosis) {
   Problem& problem = prepared.problem;
-  const auto search_from_start = [&] {
-    const Settled settled = settled_null(problem, options);
+  // `known`: sets that the search over longer stretches found, to be fitted first.
+  const auto search_from_start = [&](const std::vector<Point>& known) {
+    Settled settled = settled_null(problem, options);
+    for (Point point : known) {
+      point.nuisances = settled.null.nuisances;
+      point.tolerances = settled.null.tolerances;
+      settled.starts.push_back(std::move(point));
+    }
     diagnosis.simple = simple_answers(problem, settled.null);
     return searched(problem, clean, settled, options, balance, diagnosis);
   };
@@ -277,14 +283,15 @@ Search search_in_rounds(Prepared& prepared, Recordings& clean, const EngineOptio
   const auto stretches = problem.plant->stretches(clean.trials);
   std::size_t stretch = 0;
   std::string over_long_stretches;  // what the search named before the stretches became shorter
-  Search search = search_from_start();
+  Search search = search_from_start({});
   while (stretch + 1 < stretches.size() && !search.stopped() && leaves_more_than_noise(problem, search)) {
     if (over_long_stretches.empty() && !search.best().set.empty())
       over_long_stretches = set_text(problem, search.best().set);
+    const auto known = search.best_points(kSeeds);
     prepare_again(++stretch);
     diagnosis.log.push_back(
         fmt::format("searched again in shorter stretches: {} times the shortest", stretches[stretch]));
-    search = search_from_start();
+    search = search_from_start(known);
   }
   if (search.best().set.empty() && !over_long_stretches.empty())
     diagnosis.notes.push_back(fmt::format(
@@ -299,7 +306,7 @@ Search search_in_rounds(Prepared& prepared, Recordings& clean, const EngineOptio
   diagnosis.log.emplace_back("searched again without what happened once");
   leave_out(events, problem, clean);
   prepare_again(stretch);
-  return search_from_start();
+  return search_from_start({});
 }
 
 }  // namespace sandhopper::diagnose
