@@ -72,6 +72,21 @@ TEST(RepeatedRecordings, OtherRowsOrAnotherForceAreNone) {
   EXPECT_FALSE(are_one(original, other_cell));
 }
 
+// Two runs with one command: its dither is the same, the motion is not.
+TEST(RepeatedRecordings, OneCommandOfTwoMotionsIsNone) {
+  auto first = press(1), again = press(1);
+  for (std::size_t row = 0; row < first.t_s.size(); ++row) {
+    const double t_s = first.t_s[row];
+    first.channels[0].values[row] = 1e-4 * std::round(1e4 * 0.02 * std::sin(3.0 * t_s));
+    again.channels[0].values[row] = 1e-4 * std::round(1e4 * 0.02 * std::sin(3.1 * t_s));
+  }
+  EXPECT_FALSE(are_one(first, again));
+  auto copy = first;
+  for (auto& force : copy.channels[1].values) force = std::round(force * 1e2) / 1e2;
+  for (auto& z : copy.channels[0].values) z += 0.01;
+  EXPECT_TRUE(are_one(first, copy));
+}
+
 TEST(RepeatedRecordings, ALongRecordingIsRecognisedByThePartAroundItsLargestValue) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 0.1);

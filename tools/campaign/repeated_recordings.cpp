@@ -57,8 +57,8 @@ bool shows_noise(const std::vector<double>& values) {
 // So many samples beside the largest one recognise a recording.
 constexpr std::size_t kMostBeside = 2000;
 
-NoisyChannel around_largest(const TrialRecording& recording, const TrialRecording::Channel& channel) {
-  NoisyChannel all{channel.name, {}, {}};
+ChannelPart around_largest(const TrialRecording& recording, const TrialRecording::Channel& channel) {
+  ChannelPart all{channel.name, {}, {}};
   for (std::size_t row = 0; row < channel.values.size(); ++row)
     if (!std::isnan(channel.values[row]))
       all.t_s.push_back(recording.t_s[row]), all.values.push_back(channel.values[row]);
@@ -78,7 +78,7 @@ struct Paired {
 };
 
 // `lag_s`: what the clock of `other` is behind that of `channel`.
-Paired paired(const NoisyChannel& channel, const NoisyChannel& other, double lag_s) {
+Paired paired(const ChannelPart& channel, const ChannelPart& other, double lag_s) {
   Paired out;
   std::size_t after = 1;
   for (std::size_t i = 0; i < channel.t_s.size(); ++i) {
@@ -105,14 +105,14 @@ bool is_one_noise(std::span<const double> values, std::span<const double> others
 }
 
 // The times that one event may have in the two recordings: the same, the first, the last, the largest sample.
-std::array<double, 4> lags_of(const NoisyChannel& a, const NoisyChannel& b) {
-  const auto largest_s = [](const NoisyChannel& c) {
+std::array<double, 4> lags_of(const ChannelPart& a, const ChannelPart& b) {
+  const auto largest_s = [](const ChannelPart& c) {
     return c.t_s[static_cast<std::size_t>(place_of_largest(c.values))];
   };
   return {0.0, a.t_s.front() - b.t_s.front(), a.t_s.back() - b.t_s.back(), largest_s(a) - largest_s(b)};
 }
 
-bool is_one_noise_at(const NoisyChannel& channel, const NoisyChannel& other, double lag_s) {
+bool is_one_noise_at(const ChannelPart& channel, const ChannelPart& other, double lag_s) {
   const auto [values, others] = paired(channel, other, lag_s);
   if (values.size() < std::max(kFewestSamples, channel.values.size() / 2)) return false;
   // Most pairs differ everywhere, so that the middle is enough to tell.
@@ -122,18 +122,50 @@ bool is_one_noise_at(const NoisyChannel& channel, const NoisyChannel& other, dou
          is_one_noise(values, others);
 }
 
-double mean_step_s(const NoisyChannel& c) {
+double mean_step_s(const ChannelPart& c) {
   return (c.t_s.back() - c.t_s.front()) / static_cast<double>(c.t_s.size() - 1);
 }
 
-bool shares_noise(const NoisyChannel& a, const NoisyChannel& b) {
+// What the clock of `b` is behind that of `a`, if both share their noise.
+std::optional<double> lag_with_one_noise(const ChannelPart& a, const ChannelPart& b) {
   const bool is_finer = mean_step_s(b) <= mean_step_s(a) * (1.0 + 1e-9);
   for (const double lag_s : lags_of(a, b)) {
     const bool shorter = is_one_noise_at(is_finer ? a : b, is_finer ? b : a, is_finer ? lag_s : -lag_s);
     if (shorter || is_one_noise_at(is_finer ? b : a, is_finer ? a : b, is_finer ? -lag_s : lag_s))
-      return true;
+      return lag_s;
   }
-  return false;
+  return std::nullopt;
+}
+
+double smallest_step(const std::vector<double>& values) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1]) smallest = std::min(smallest, std::abs(values[i] - values[i - 1]));
+  return std::isfinite(smallest) ? smallest : 0.0;
+}
+
+// True if two smooth channels differ by more than their steps and the error of the line between two samples, 1/8
+// of the largest second difference. A zero of their own does not count. A command can be the same in two
+// recordings; what moved then differs.
+bool differs(const ChannelPart& a, const ChannelPart& b, double lag_s) {
+  if (a.t_s.size() < 3 || b.t_s.size() < 3) return false;
+  const auto [values, others] = paired(a, b, lag_s);
+  if (values.size() < kFewestSamples) return false;
+  double sum = 0.0, squares = 0.0, bend = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += values[i] - others[i];
+    squares += (values[i] - others[i]) * (values[i] - others[i]);
+  }
+  for (std::size_t i = 1; i + 1 < b.values.size(); ++i)
+    bend = std::max(bend, std::abs(b.values[i + 1] - 2.0 * b.values[i] + b.values[i - 1]));
+  const auto n = static_cast<double>(values.size());
+  const double rms = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
+  return rms > smallest_step(a.values) + smallest_step(b.values) + bend / 8.0;
+}
+
+const ChannelPart* part_of(const std::vector<ChannelPart>& parts, const std::string& name) {
+  const auto part = std::ranges::find(parts, name, &ChannelPart::name);
+  return part == parts.end() ? nullptr : &*part;
 }
 
 bool is_same_set_up(const CampaignTrial& a, const CampaignTrial& b) {
@@ -149,21 +181,25 @@ bool is_same_set_up(const CampaignTrial& a, const CampaignTrial& b) {
 }  // namespace
 
 bool have_one_noise(const Fingerprint& a, const Fingerprint& b) {
-  bool any = false;
+  std::optional<double> lag_s;
   for (const auto& channel : a.noisy) {
-    const auto other = std::ranges::find(b.noisy, channel.name, &NoisyChannel::name);
-    if (other == b.noisy.end()) continue;
-    if (!shares_noise(channel, *other)) return false;
-    any = true;
+    const auto* other = part_of(b.noisy, channel.name);
+    if (other == nullptr) continue;
+    lag_s = lag_with_one_noise(channel, *other);
+    if (!lag_s) return false;
   }
-  return any;
+  if (!lag_s) return false;
+  return std::ranges::none_of(a.smooth, [&](const ChannelPart& channel) {
+    const auto* other = part_of(b.smooth, channel.name);
+    return other != nullptr && differs(channel, *other, *lag_s);
+  });
 }
 
 Fingerprint fingerprint_of(const TrialRecording& recording) {
   Fingerprint print;
   if (!recording.usable()) return print;
   for (const auto& channel : recording.channels)
-    if (shows_noise(channel.values)) print.noisy.push_back(around_largest(recording, channel));
+    (shows_noise(channel.values) ? print.noisy : print.smooth).push_back(around_largest(recording, channel));
   if (print.noisy.empty()) return print;
   std::uint64_t hash = kOffset;
   for (const auto& channel : recording.channels) {

@@ -9,8 +9,8 @@
 
 namespace sandhopper {
 
-// A channel that shows noise, or its part around its largest value if it is long.
-struct NoisyChannel {
+// A channel, or its part around its largest value if it is long.
+struct ChannelPart {
   std::string name;
   std::vector<double> t_s, values;
 };
@@ -19,13 +19,15 @@ struct NoisyChannel {
 struct Fingerprint {
   std::uint64_t exact =
       0;  // of channels and values, not times; 0: another recording could equal it by chance
-  std::vector<NoisyChannel> noisy{};
+  std::vector<ChannelPart> noisy{};   // channels that show noise
+  std::vector<ChannelPart> smooth{};  // the others
 };
 
 Fingerprint fingerprint_of(const TrialRecording& recording);
 
-// True if two recordings share their noise in every channel in which both show noise: one is the other with
-// other digits, fewer rows, a cut begin or end, another begin of its clock or another zero.
+// True if two recordings share their noise in every channel in which both show noise, and differ by no more than
+// their digits in the others: one is the other with other digits, fewer rows, a cut begin or end, another begin
+// of its clock or another zero.
 bool have_one_noise(const Fingerprint& a, const Fingerprint& b);
 
 // Finds one recording that a campaign lists twice, also under another name or with another set-up. Noise
