@@ -162,8 +162,11 @@ std::string SensorNoise::in_words() const {
   else
     text += fmt::format(", {} times the {} by which it scatters from sample to sample: ", two_digits(times()),
                         in_unit(measured, unit));
-  text += is_sensor_worse ? "the sensor is worse than stated."
-                          : "the rest changes slowly, so it is an error of the model, or the sensor drifts.";
+  if (is_sensor_worse) text += "the sensor is worse than stated";
+  if (used > kQuietChannel * measured || !is_sensor_worse)
+    text += fmt::format("{}the rest changes slowly, so it is an error of the model, or the sensor drifts",
+                        is_sensor_worse ? ", and " : "");
+  text += ".";
   return text + " Errors, intervals and bounds are computed with the larger noise.";
 }
 
@@ -172,9 +175,11 @@ double beyond_floor(double error, double floor) {
 }
 
 std::string remainder_text(const Diagnosis& d) {
-  if (d.fits.empty() || std::ranges::none_of(d.effects, &FoundEffect::is_unknown)) return "";
+  if (d.fits.empty() || d.effects.empty()) return "";
   const auto& f = *std::ranges::max_element(
       d.fits, {}, [](const ChannelFit& fit) { return fit.heldout.after / std::max(fit.floor, 1e-300); });
+  const bool is_clear = f.heldout.after > kMoreThanNoise * f.floor;
+  if (!is_clear && std::ranges::none_of(d.effects, &FoundEffect::is_unknown)) return "";
   const auto unit = quantity_of(f.channel).unit;
   const double left = beyond_floor(f.heldout.after, f.floor),
                before = beyond_floor(f.heldout.before, f.floor);
