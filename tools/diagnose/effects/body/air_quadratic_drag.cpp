@@ -56,7 +56,7 @@ const EffectRegistration kEffect(
     {.id = "air.quadratic_drag",
      .port = Port::body,
      .statement = "The medium resists with a force that grows with the square of speed.",
-     .equation = "F += -1/2 rho A C_d |v| v",
+     .equation = "F += -1/2 rho A C_d |v| v, tau += -c |w| w",
      .bench_tests =
          {{.sentence =
                "Tow the body by a force gauge through the medium at a steady speed and at twice of it: "
