@@ -61,25 +61,43 @@ void Aftermath::serve() {
     if (listener_.request) listener_.request(*answer);
     answers_.pop();
   }
-  for (const StrideSums* sums = strides_.front(); sums != nullptr; sums = strides_.front()) {
-    const StrideResult result = solve_stride(*sums, config_);
-    logger_.push(topics_.stride, sums->summary.liftoff_ns, result);
-    if (listener_.stride) listener_.stride(result);
-    profile_.add(sums->profile, sums->summary.stride);
-    const GroundSummary ground = summarise(profile_);
-    logger_.push(topics_.profile, sums->summary.liftoff_ns, profile_.profile());
-    logger_.push(topics_.ground, sums->summary.liftoff_ns, ground);
-    if (listener_.profile) listener_.profile(profile_.profile(), ground);
-    strides_.pop();
+  // A stance is searched with the profile of the strides up to its own, in the order of time as in a replay.
+  // The cycle offers a stride before its stance, and that before the next stride: a stance that was there has
+  // its stride, and without one the next stride shows only after its stance.
+  for (;;) {
+    const Stance* stance = stances_.front();
+    const StrideSums* sums = strides_.front();
+    if (stance == nullptr) stance = stances_.front();
+    if (sums != nullptr && (stance == nullptr || sums->summary.liftoff_ns <= stance->clear_ns)) {
+      serve(*sums);
+      strides_.pop();
+    } else if (stance != nullptr) {
+      serve(*stance);
+      stances_.pop();
+    } else {
+      return;
+    }
   }
-  for (const Stance* stance = stances_.front(); stance != nullptr; stance = stances_.front()) {
-    const GroundEvents found = find_ground_events(stance->sums, ground_event_config(config_));
-    // The record's time is that of the cycle that completed it: a replay, which reads in the order of time,
-    // has computed it by then.
-    logger_.push(topics_.ground_events, stance->clear_ns, found);
-    if (listener_.ground_events) listener_.ground_events(found);
-    stances_.pop();
-  }
+}
+
+void Aftermath::serve(const StrideSums& sums) {
+  const StrideResult result = solve_stride(sums, config_);
+  logger_.push(topics_.stride, sums.summary.liftoff_ns, result);
+  if (listener_.stride) listener_.stride(result);
+  profile_.add(sums.profile, sums.summary.stride);
+  const GroundSummary ground = summarise(profile_);
+  logger_.push(topics_.profile, sums.summary.liftoff_ns, profile_.profile());
+  logger_.push(topics_.ground, sums.summary.liftoff_ns, ground);
+  if (listener_.profile) listener_.profile(profile_.profile(), ground);
+}
+
+void Aftermath::serve(const Stance& stance) {
+  const GroundEvents found =
+      find_ground_events(stance.sums, ground_event_config(config_), profile_.profile());
+  // The record's time is that of the cycle that completed it: a replay, which reads in the order of time,
+  // has computed it by then.
+  logger_.push(topics_.ground_events, stance.clear_ns, found);
+  if (listener_.ground_events) listener_.ground_events(found);
 }
 
 }  // namespace sandhopper

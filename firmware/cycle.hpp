@@ -66,6 +66,13 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): padding 
   void offer(const RequestRecord& answer) noexcept { answers_.push(answer); }
 
  private:
+  struct Stance {
+    GroundEventSums sums{};
+    std::int64_t clear_ns = 0;
+  };
+  void serve(const StrideSums& sums);
+  void serve(const Stance& stance);
+
   StiffnessConfig config_;
   ProfileSolver profile_;
   TrialLogger& logger_;
@@ -73,10 +80,6 @@ class Aftermath {  // NOLINT(clang-analyzer-optin.performance.Padding): padding 
   Listener listener_;
   SpscRing<Event> events_{1024};
   SpscRing<StrideSums> strides_{64};
-  struct Stance {
-    GroundEventSums sums{};
-    std::int64_t clear_ns = 0;
-  };
   SpscRing<Stance> stances_{16};
   SpscRing<RequestRecord> answers_{2048};
   std::thread thread_;

@@ -42,9 +42,25 @@ double greatest_force_N(std::span<const Point> points) {
   return greatest;
 }
 
+// Distribution of the added mass's factor c.
+struct AddedMass {
+  double mean, sd;
+};
+
+AddedMass added_mass_of(const GroundEventSums& sums, const JointConfig& prior,
+                        const StrengthProfile& profile) {
+  if (!(profile.added_mass_factor_sd > 0.0)) return {prior.added_mass_factor, prior.added_mass_factor_sd};
+  const double landing_sd = sums.crater_depth_m > 0.0F ? prior.added_mass_factor_sd : 0.0;
+  return {profile.added_mass_factor, std::hypot(profile.added_mass_factor_sd, landing_sd)};
+}
+
 struct Stance {
   std::vector<Point> points;
   std::array<GroundEventSums::Resumption, 2> resumed;
+  AddedMass added_mass;
+
+  // Force without that of the expected added mass.
+  double ground_N(const Point& p) const { return p.force_N - added_mass.mean * p.inertia_N; }
 };
 
 struct Smoothness {
@@ -67,7 +83,7 @@ NormalTest smooth_bed(const Stance& stance, const GroundEventConfig& config, con
   NormalTest test(points.size(), kSmoothTerms);
   std::vector<double> variance(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    test.observe(i, points[i].force_N);
+    test.observe(i, stance.ground_N(points[i]));
     const double from_depth_N = slope_at(points, i) * config.depth_noise_m;
     variance[i] =
         (noise.force_noise_N * noise.force_noise_N + from_depth_N * from_depth_N) / points[i].samples;
@@ -90,7 +106,7 @@ NormalTest smooth_bed(const Stance& stance, const GroundEventConfig& config, con
   term(wide_N, [&](const Point& p) { return p.depth_m / deepest_m; });
   term(wide_N, [&](const Point& p) { return p.depth_m * p.depth_m / (deepest_m * deepest_m); });
   term(wide_N, [&](const Point& p) { return 1.0 - std::exp(-p.depth_m / noise.intercept_growth_depth_m); });
-  term(noise.added_mass_factor + noise.added_mass_factor_sd, [](const Point& p) { return p.inertia_N; });
+  term(stance.added_mass.sd, [](const Point& p) { return p.inertia_N; });
   term(noise.joint_friction_sd_N, [](const Point& p) { return p.friction; });
   term(slope_N_per_m * noise.depth_drift_sd_mps, [](const Point& p) { return p.time_s; });
   return test;
@@ -157,11 +173,11 @@ struct Rupture {
 };
 
 // Mean force minus added-mass force between two depths; NaN if there is no point.
-double mean_force_N(std::span<const Point> points, double from_m, double to_m) {
+double mean_ground_N(const Stance& stance, double from_m, double to_m) {
   double sum = 0.0, count = 0.0;
-  for (const auto& p : points)
+  for (const auto& p : stance.points)
     if (p.depth_m > from_m && p.depth_m < to_m) {
-      sum += p.force_N - p.inertia_N;
+      sum += stance.ground_N(p);
       count += 1.0;
     }
   return sum / count;
@@ -173,19 +189,19 @@ bool resumes_at(const Stance& stance, double place_m) {
   return std::ranges::any_of(stance.resumed, [&](const GroundEventSums::Resumption& resumed) {
     const double at_m = resumed.depth_m;
     if (at_m < 0.0 || std::abs(place_m - at_m) > kResumes_m) return false;
-    return !(mean_force_N(stance.points, at_m + kResumes_m, at_m + kAfter_m) < resumed.bearing_N);
+    return !(mean_ground_N(stance, at_m + kResumes_m, at_m + kAfter_m) < resumed.bearing_N);
   });
 }
 
 // A rupture is a fall of the force; a steep rise at the end of the stance is none.
-bool falls_after(std::span<const Point> points, const Point& p) {
+bool falls_after(const Stance& stance, const Point& p) {
   constexpr double kAfter_m = 0.004;
-  return mean_force_N(points, p.depth_m, p.depth_m + kAfter_m) < p.force_N - p.inertia_N;
+  return mean_ground_N(stance, p.depth_m, p.depth_m + kAfter_m) < stance.ground_N(p);
 }
 
 void offer_ruptures(Search& search, const Stance& stance) {
   for (const auto& p : stance.points) {
-    if (!falls_after(stance.points, p) || resumes_at(stance, p.depth_m)) continue;
+    if (!falls_after(stance, p) || resumes_at(stance, p.depth_m)) continue;
     for (const double rise_m : kRises_m)
       for (const double decay_m : kDecays_m)
         search.offer(p.depth_m, GroundEventKind::crust_rupture, false, Rupture{p.depth_m, rise_m, decay_m});
@@ -296,10 +312,11 @@ GroundEventConfig ground_event_config(const StiffnessConfig& config) noexcept {
   return events;
 }
 
-GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config) {
+GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config,
+                                const StrengthProfile& profile) {
   GroundEvents events{.stride = sums.stride};
   events.suction = find_suction(sums.up, config);
-  const Stance stance{points_of(sums.down), sums.resumed};
+  const Stance stance{points_of(sums.down), sums.resumed, added_mass_of(sums, config.noise, profile)};
   if (stance.points.size() < kLeastPoints) return events;
   events.rupture = find_rupture(stance, config);
   events.boundary = find_boundary(stance, config, events.rupture);

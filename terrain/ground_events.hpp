@@ -5,14 +5,16 @@
 
 #include "config/fields.hpp"
 #include "terrain/joint_fit.hpp"
+#include "terrain/strength_profile.hpp"
 
 // Detects sudden changes of the ground in one stance: rupture of a crust, boundary of two layers, floor of
 // the box, and suction while the foot leaves. Each is a generalised likelihood-ratio test of a smooth bed
 // against a smooth bed plus one template h of unknown place and size A.
 //
-// Null, for the force y_i at the depths z_i where the foot reached new ground:
+// Null, for the force y_i at the depths z_i where the foot reached new ground, less the force c A of the
+// expected added mass:
 //   y = X b + s(z) + (e F) u(z) + n,   all normal with mean zero
-//   X   1, z, z^2, 1 - exp(-z/dz0), the cone's drag and added mass, joint friction, time
+//   X   1, z, z^2, 1 - exp(-z/dz0), the cone's drag and added mass A, joint friction, time
 //   s   the smooth remainder: squared-exponential covariance with one length
 //   u   the bed's fluctuation, triangular covariance over its length; n sensor noise
 // With S their covariance, a template's log-likelihood ratio is L(h) = (h' S^-1 y)^2 / (2 h' S^-1 h), and
@@ -25,6 +27,10 @@
 //   boundary  h = z / (1 + exp((c - z)/w)), either sign
 //   floor     h = max(0, z - c); A > 0
 //   suction   h = -(27/4) u (1 - u)^2 above the crater's floor, on the samples of the foot that leaves; A > 0
+// Mean and variance of c are those of the strength profile after this stride. The profile's curve may jump,
+// so a rupture hardly biases its c. If c were free, a wrong c would explain the rupture under a foot that
+// rested and then accelerates. In a crater the damping of the landing acts on the first new ground and
+// resembles inertia, so c has its prior variance there in addition.
 // All templates compete: a rupture is reported only if no other template is more likely. An event that was
 // found becomes part of the null of the next search; for a rupture its place is uncertain by one step of the
 // search.
@@ -33,8 +39,8 @@
 // pause new ground begins when the force has returned to its value at the deepest point; that point then
 // defines the present depth. It also begins when the estimated depth exceeds the deepest point by two
 // standard deviations of the drift. The damping of the reloading ends there, which looks like a rupture. So
-// within 1 mm of it a rupture is accepted only if the force 1 to 4 mm deeper is less than the ground bore
-// under the resting foot in the pause.
+// within 1 mm of it a rupture is accepted only if the force 1 to 4 mm deeper, less that of the added mass, is
+// less than the ground bore under the resting foot in the pause.
 //
 // Sources: the statistic is that of Davies 1977 (a nuisance parameter that exists only under the
 // alternative); the templates are as in terrain/bed_family.hpp.
@@ -188,9 +194,11 @@ struct GroundEvents {
 // Default configuration with the noise of the joint fit.
 GroundEventConfig ground_event_config(const StiffnessConfig& config) noexcept;
 
-// Not for the cycle: it takes some ten milliseconds for the full range of depth, and it allocates. Equal sums
-// give equal bits.
-GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config);
+// `profile`: estimate from all strides to this one, for its added mass. Without a stride the added mass has
+// the prior of the joint fit. Not for the cycle: it takes some ten milliseconds for the full range of depth,
+// and it allocates. Equal sums and profiles give equal bits.
+GroundEvents find_ground_events(const GroundEventSums& sums, const GroundEventConfig& config,
+                                const StrengthProfile& profile = {});
 
 // u with P(chi^2_1 > u) = probability.
 double chi_squared_1_quantile(double probability) noexcept;

@@ -121,6 +121,33 @@ TEST(BedTrial, CrustsHaveFewBoundaries) {
   EXPECT_LE(boundaries, ruptures / 8);
 }
 
+// On heavy ground the force on a foot that breaks through is mostly inertia. The prior of the added mass
+// explains it badly, the profile of the same stride well.
+TEST(BedTrial, CrustsOnHeavyGroundAreFoundWithTheProfilesAddedMass) {
+  WorldConfig heavy;
+  heavy.terrain.added_mass_factor = 3.0;
+  int broken = 0, with_prior = 0, with_profile = 0;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const auto trial = run_bed_trial({}, heavy, bed_named("crust"), seed, 1);
+    if (trial.strides.empty() || !trial.strides[0].events_complete) continue;
+    const auto& stride = trial.strides[0];
+    if (stride.true_deepest_m < *trial.truth.rupture_depth_m + 0.001) continue;
+    ProfileSolver solver{StiffnessConfig{}};
+    solver.add(stride.sums.profile, stride.sums.summary.stride);
+    const auto finds = [&](const StrengthProfile& profile) {
+      const auto found = find_ground_events(stride.events, {}, profile).rupture;
+      return found.kind == GroundEventKind::crust_rupture &&
+             std::abs(found.depth_m - *trial.truth.rupture_depth_m) < 0.010;
+    };
+    ++broken;
+    with_prior += finds({});
+    with_profile += finds(solver.profile());
+  }
+  ASSERT_GE(broken, 60);
+  EXPECT_GT(with_profile, with_prior);
+  EXPECT_GE(with_profile, 0.95 * broken);
+}
+
 TEST(BedTrial, StridesInTheCraterGiveItsReloadingLine) {
   const auto trial = trial_on("line", 11);
   ProfileSolver solver{StiffnessConfig{}};

@@ -99,7 +99,7 @@ std::vector<Answer> answers_to(const BedTrial& trial, const StiffnessConfig& con
     const auto& sums = stride.sums.profile;
     answer.contact = solver.contact_depth(sums.contact_mps, sums.contact_added_mass_kg_per_m);
     const auto search = std::chrono::steady_clock::now();
-    answer.events = find_ground_events(stride.events, ground_event_config(config));
+    answer.events = find_ground_events(stride.events, ground_event_config(config), answer.profile);
     answer.search_s = seconds_since(search);
   }
   return answers;

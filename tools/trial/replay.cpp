@@ -191,8 +191,8 @@ class Replay {
     for (const auto& event : controller_.events()) events_.expect(event);
     if (controller_.stride_finished()) expect_stride(controller_.stride_sums());
     if (controller_.ground_events_complete())
-      ground_events_.expect(
-          find_ground_events(controller_.ground_event_sums(), ground_event_config(robot_.stiffness)));
+      ground_events_.expect(find_ground_events(controller_.ground_event_sums(),
+                                               ground_event_config(robot_.stiffness), profile_.profile()));
   }
 
   void expect_stride(const StrideSums& sums) {
