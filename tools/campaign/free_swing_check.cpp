@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,6 +60,41 @@ bool swings_free(const TrialRecording& recording, const CampaignTrial& trial) {
   return !has_torque && trial.text("profile").value_or("release") == "release";
 }
 
+// True if the axis starts with less than a hundredth of its largest kinetic energy, farther from upright than
+// that energy lifts it: the slope at the first sample of a parabola through the first ten is less than a
+// tenth of the largest speed, by five of its standard deviations.
+bool starts_at_rest(std::span<const double> t_s, std::span<const double> angles) {
+  constexpr Eigen::Index kFirst = 10;
+  constexpr double kClear = 5.0, kSlow = 0.1;
+  double fastest = 0.0;
+  for (std::size_t i = 1; i < angles.size(); ++i)
+    if (const double speed = (angles[i] - angles[i - 1]) / (t_s[i] - t_s[i - 1]); !std::isnan(speed))
+      fastest = std::max(fastest, std::abs(speed));
+  if (static_cast<Eigen::Index>(angles.size()) < kFirst) return false;
+  const Eigen::ArrayXd t = Eigen::Map<const Eigen::ArrayXd>(t_s.data(), kFirst) - t_s.front();
+  const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(angles.data(), kFirst);
+  Eigen::MatrixXd by(kFirst, 3);
+  by << Eigen::VectorXd::Ones(kFirst), t.matrix(), t.square().matrix();
+  const Eigen::MatrixXd inverse = (by.transpose() * by).inverse();
+  const Eigen::VectorXd fitted = inverse * by.transpose() * y;
+  const double variance = (y - by * fitted).squaredNorm() / static_cast<double>(kFirst - 3);
+  const double error = kClear * std::sqrt(variance * inverse(1, 1));
+  const bool is_near_upright = std::cos(angles.front()) <= 2.0 * kSlow * kSlow - 1.0;
+  return std::abs(fitted[1]) + error <= kSlow * fastest && !is_near_upright;
+}
+
+// The way of an angle that never comes back by more than its noise; 0 if it does.
+double way_without_return(const std::vector<double>& angles, double noise_rad) {
+  constexpr double kClear = 5.0;  // in standard deviations
+  double low = angles.front(), high = angles.front(), back_of_rise = 0.0, back_of_fall = 0.0;
+  for (const double angle : angles) {
+    low = std::min(low, angle), high = std::max(high, angle);
+    back_of_rise = std::max(back_of_rise, high - angle);
+    back_of_fall = std::max(back_of_fall, angle - low);
+  }
+  return std::min(back_of_rise, back_of_fall) <= kClear * noise_rad ? high - low : 0.0;
+}
+
 // The extremes of a swing: from each it comes back by `least_rad`.
 std::vector<double> turning_angles(const std::vector<double>& angles, double least_rad) {
   std::vector<double> turns;
@@ -91,6 +127,7 @@ struct AngleDoubt {
   std::string what;
   double factor = 1.0;      // of the column's scale, if another unit is what is wrong
   double offset_rad = 0.0;  // that moves the hanging position to 0, if the zero is what is wrong
+  std::string cure{};       // in place of a line of [columns]
 };
 
 AngleDoubt doubt_of_angle(const std::vector<double>& angles, double noise_rad, const CampaignTrial& trial) {
@@ -100,7 +137,7 @@ AngleDoubt doubt_of_angle(const std::vector<double>& angles, double noise_rad, c
                         "and turns round stays within one turn (6.28 rad): degrees taken for rad, or the "
                         "angle of a motor before its gear",
                         way),
-            kDegree_rad, 0.0};
+            kDegree_rad, 0.0, ""};
   if (const auto middle = middle_of_swing(angles, noise_rad)) {
     const double quarters = std::round(*middle / (0.25 * kTurn_rad));
     if (std::fmod(quarters, 4.0) != 0.0)
@@ -125,6 +162,20 @@ AngleDoubt doubt_of_angle(const std::vector<double>& angles, double noise_rad, c
   return {};
 }
 
+// A pendulum that is let go at rest has at most the energy of its upright position: it stays within a turn.
+AngleDoubt doubt_of_direction(const std::vector<double>& angles, std::span<const double> t_s,
+                              std::span<const double> position) {
+  const double way = way_without_return(angles, noise_of_bends(position));
+  if (!(way > kTurn_rad) || !starts_at_rest(t_s, position)) return {};
+  return {
+      fmt::format("goes on by {:.3g} rad from rest and never comes back, and a pendulum that is let go at "
+                  "rest stays within one turn (6.28 rad): an encoder that counts in one direction only, "
+                  "or an axis that is driven",
+                  way),
+      1.0, 0.0,
+      "record both channels of the encoder, or write motor_enabled = true for a trial that is driven"};
+}
+
 }  // namespace
 
 void check_free_swing(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
@@ -136,15 +187,18 @@ void check_free_swing(TrialRecording& recording, const Campaign& campaign, const
   if (!(belief->axis.gravity_torque_Nm > 0.0) || !swings_free(recording, trial)) return;
   const auto angles = without_spikes(recording.channel("position_rad"));
   if (angles.empty()) return;
-  auto doubt = doubt_of_angle(angles, noise_of_bends(recording.channel("position_rad")), trial);
+  const auto position = recording.channel("position_rad");
+  auto doubt = doubt_of_angle(angles, noise_of_bends(position), trial);
+  if (doubt.what.empty()) doubt = doubt_of_direction(angles, recording.t_s, position);
   if (doubt.what.empty()) return;
   const auto* column = places.column_of("position_rad");
   auto corrected = column == nullptr ? UsedColumn{} : in_other_unit(*column, doubt.factor);
   corrected.offset += doubt.offset_rad;
   doubt_column(recording, places, places.is_stated("position_rad"), "position_rad", std::move(doubt.what),
-               column == nullptr ? "correct the unit of position_rad"
-                                 : fmt::format("if so write {} into [columns], or correct the set-up",
-                                               mapping_line(corrected)));
+               column == nullptr     ? "correct the unit of position_rad"
+               : !doubt.cure.empty() ? std::move(doubt.cure)
+                                     : fmt::format("if so write {} into [columns], or correct the set-up",
+                                                   mapping_line(corrected)));
 }
 
 }  // namespace sandhopper

@@ -8,7 +8,8 @@ namespace sandhopper {
 //   the energy of its upright position, so that it stays within one turn;
 // - from a stated release_position_rad it swings farther than the geometric mean of rad and degrees times
 //   that angle, where energy allows once that angle; or it starts at 1/57.3 of it and goes no farther;
-// - it swings about an angle that is nearer to a quarter or half turn than to the hanging position, angle 0.
+// - it swings about an angle that is nearer to a quarter or half turn than to the hanging position, angle 0;
+// - from rest it goes on by more than one turn and never comes back.
 void check_free_swing(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                       const RecordingPlaces& places);
 

@@ -11,6 +11,7 @@
 
 #include "tools/campaign/flat_ends.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/signal_noise.hpp"
 
 namespace sandhopper {
 namespace {
@@ -80,6 +81,7 @@ class RateChecker {
   void run() {
     for (const auto& pair : kPairs) {
       if (!recording_.has(pair.position) || !recording_.has(pair.speed)) continue;
+      if (look_for_lost_sign(pair)) continue;
       const auto found = slope(pair.position, pair.speed);
       if (!found || look_for_crossing(pair, *found) || look_for_exchange(pair, *found)) continue;
       if (found->together > kCorrelates) judge(pair, *found);
@@ -87,6 +89,56 @@ class RateChecker {
   }
 
  private:
+  // A speed that is never negative, and follows the magnitude of the rate of its position where that falls
+  // as where it rises. An acceleration may be positive throughout, and a speed that is cut off at 0 follows
+  // nothing where the position falls.
+  bool look_for_lost_sign(const Pair& pair) {
+    const auto x = recording_.channel(pair.position), v = recording_.channel(pair.speed);
+    if (pair.position == "foot_velocity_mps" || std::ranges::any_of(v, [](double s) { return s < 0.0; }))
+      return false;
+    const auto span = clear_span(x);
+    const auto rising = one_way_slope(x, v, span, 1.0), falling = one_way_slope(x, v, span, -1.0);
+    if (!rising || !falling || rising->together < kCorrelates || falling->together < kCorrelates)
+      return false;
+    add(pair.speed,
+        fmt::format("is never negative, and where {} falls it follows the magnitude of that rate "
+                    "(correlation {:.2f}): the speed has no sign",
+                    pair.position, std::sqrt(falling->together)),
+        "record it with its sign, or rename the column: a speed is not needed beside a position",
+        is_stated(pair.position, pair.speed));
+    return true;
+  }
+
+  // The fewest rows over which a position moves clearly beside its noise; half of the rows at most.
+  static std::size_t clear_span(std::span<const double> x) {
+    constexpr double kClear = 5.0;  // in standard deviations of the difference of two samples
+    const double clear = kClear * std::numbers::sqrt2 * noise_of_bends(x);
+    std::size_t span = 1;
+    for (; 2 * span < x.size() / 2; span *= 2) {
+      double squares = 0.0, steps = 0.0;
+      for (std::size_t i = span; i < x.size(); ++i)
+        if (const double step = x[i] - x[i - span]; !std::isnan(step)) squares += step * step, ++steps;
+      if (steps > 0.0 && std::sqrt(squares / steps) > clear) break;
+    }
+    return span;
+  }
+
+  // Of the speed against the magnitude of the rate, over the steps of `span` rows that go in one direction.
+  std::optional<Slope> one_way_slope(std::span<const double> x, std::span<const double> v, std::size_t span,
+                                     double sign) const {
+    double dd = 0.0, dv = 0.0, vv = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + span < x.size(); ++i) {
+      const double rate = sign * (x[i + span] - x[i]) / (recording_.t_s[i + span] - recording_.t_s[i]);
+      const double speed = 0.5 * (v[i] + v[i + span]);
+      if (!(rate > 0.0) || std::isnan(speed)) continue;
+      dd += rate * rate, dv += rate * speed, vv += speed * speed;
+      ++count;
+    }
+    if (count < 10 || vv <= 0.0) return std::nullopt;
+    return Slope{dv / dd, dv * dv / (dd * vv)};
+  }
+
   // From the rows in which neither stands at an end of its range, where these correlate: a speed that is
   // clipped is no speed in another unit, whose ratio is the same at all speeds.
   std::optional<Slope> slope(std::string_view position, std::string_view speed) const {

@@ -44,7 +44,7 @@ Steps steps_around(const std::vector<Sample>& samples, double value) {
   Steps steps;
   const Sample* before = nullptr;  // the last sample with another value
   bool is_code_before = false;
-  std::optional<double> inward;  // the step to the code, until the step away from it
+  double inward = NAN;  // the step to the code, until the step away from it
   for (const auto& sample : samples) {
     const bool is_code = sample.value == value;
     if (is_code && steps.rows++ == 0) steps.first_row = sample.row;
@@ -52,8 +52,8 @@ Steps steps_around(const std::vector<Sample>& samples, double value) {
     if (is_code && !is_code_before && !is_first) inward = std::abs(before->value - value);
     if (!is_code && is_code_before && !is_first) {
       const double outward = std::abs(sample.value - value);
-      steps.edges.insert(steps.edges.end(), inward ? 2U : 1U, std::min(outward, inward.value_or(outward)));
-      inward.reset();
+      steps.edges.insert(steps.edges.end(), std::isnan(inward) ? 1U : 2U, std::fmin(outward, inward));
+      inward = NAN;
     }
     if (!is_code) {
       if (before != nullptr)
@@ -64,7 +64,7 @@ Steps steps_around(const std::vector<Sample>& samples, double value) {
     }
     is_code_before = is_code;
   }
-  if (inward) steps.edges.push_back(*inward);
+  if (!std::isnan(inward)) steps.edges.push_back(inward);
   return steps;
 }
 

@@ -1,8 +1,10 @@
 #include "tools/campaign/sample_checks.hpp"
 
 #include "tools/campaign/axis_torque_check.hpp"
+#include "tools/campaign/begins_in_bed.hpp"
 #include "tools/campaign/clock_checks.hpp"
 #include "tools/campaign/depth_unit_check.hpp"
+#include "tools/campaign/early_end.hpp"
 #include "tools/campaign/fall_accel_check.hpp"
 #include "tools/campaign/fall_check.hpp"
 #include "tools/campaign/fall_limits.hpp"
@@ -36,7 +38,9 @@ void check_surfaces(TrialRecording& recording, const Campaign& campaign, const C
   const double surface_m = check_surface_onset(recording, campaign, trial, places);
   check_surface(recording, campaign, trial, places, surface_m);
   const bool pushes = trial.kind == TrialKind::intrusion || trial.kind == TrialKind::press;
-  if (campaign.plant == CampaignPlant::intruder && pushes) check_force_steps(recording, places);
+  if (campaign.plant != CampaignPlant::intruder || !pushes) return;
+  check_force_steps(recording, places);
+  check_begins_in_bed(recording, trial, places);
 }
 
 }  // namespace
@@ -51,7 +55,7 @@ void check_samples(TrialRecording& recording, const Campaign& campaign, const Ca
   check_plausible(recording, campaign, trial, places);
   check_overburden(recording, campaign, trial, places);
   check_depth_unit(recording, campaign, trial, places);
-  check_force_unit(recording, campaign, trial, places);
+  if (!note_early_end(recording, places)) check_force_unit(recording, campaign, trial, places);
   check_rates(recording, places);
   check_gravity(recording, places);
   check_falls(recording, campaign, trial, places);

@@ -9,6 +9,7 @@
 
 #include "tools/campaign/force_at_depth.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/signal_noise.hpp"
 
 namespace sandhopper {
 namespace {
@@ -82,7 +83,10 @@ class SignChecker {
   }
 
   void check_push() {
-    if (campaign_.plant == CampaignPlant::intruder && trial_.kind != TrialKind::clamped) compare_with_depth();
+    if (campaign_.plant == CampaignPlant::intruder && trial_.kind != TrialKind::clamped) {
+      compare_with_depth();
+      check_one_way();
+    }
   }
 
  private:
@@ -112,7 +116,43 @@ class SignChecker {
     if (any_at(-kGravity_mps2, true))
       return add(channel, "reads -9.81 m/s2 at rest: its axis points downward, and the channel counts upward",
                  -1.0);
-    if (campaign_.plant == CampaignPlant::falling_body) check_weightless(channel);
+    if (campaign_.plant != CampaignPlant::falling_body) return;
+    if (!check_range(channel)) check_weightless(channel);
+  }
+
+  // Mean over the rows before the fall in which the height stays; without those of a fall that does not show
+  // in the height yet. NaN if they are too few.
+  double mean_before_fall(std::span<const double> values) const {
+    constexpr std::size_t kFewestAtRest = 10;
+    constexpr double kClear = 5.0;  // in standard deviations
+    if (!recording_.has("height_m")) return NAN;
+    const auto height = recording_.channel("height_m");
+    const double clear_m = kClear * noise_of_bends(height);
+    const auto first = std::ranges::find_if(height, [](double h) { return !std::isnan(h); });
+    std::size_t end = 0;
+    while (end < height.size() && !(std::abs(height[end] - *first) > clear_m)) ++end;
+    if (end == height.size() || end == 0) return NAN;
+    const double until_s = recording_.t_s[end] - std::sqrt(4.0 * clear_m / 9.81);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t row = 0; row < end && recording_.t_s[row] < until_s; ++row)
+      if (!std::isnan(values[row])) sum += values[row], ++count;
+    return count < kFewestAtRest ? NAN : sum / count;
+  }
+
+  // The ranges of accelerometers (2, 4, 8, 16 g) differ by powers of two.
+  bool check_range(std::string_view channel) {
+    constexpr double kGravity_mps2 = 9.81, kNearPower = 0.06;  // as kNear
+    const double mean = mean_before_fall(recording_.channel(channel));
+    for (const double factor : {2.0, 0.5, 4.0, 0.25, 8.0, 0.125}) {
+      if (!(std::abs(mean * factor / kGravity_mps2 - 1.0) < kNearPower)) continue;
+      add(channel,
+          fmt::format("reads {:.3g} m/s2 before the fall, where the height stays and gravity alone is 9.81 "
+                      "m/s2, {:.3g} times that: the range of the sensor is another than its scale assumes",
+                      mean, factor),
+          factor);
+      return true;
+    }
+    return false;
   }
 
   static std::string weightless_cure(const UsedColumn* column) {
@@ -200,6 +240,48 @@ class SignChecker {
           "is highest where the force is largest: it counts the depth downward, and the channel counts "
           "upward",
           -1.0);
+  }
+
+  // Doubts a depth that never goes back, while the force falls to that of the air and stays there: the foot
+  // came out of the bed. A depth that was stopped, or that goes on by less than a tenth, shows no way back.
+  void check_one_way() {
+    constexpr std::size_t kAirRows = 10;
+    constexpr double kClear = 5.0, kGoesOn = 0.1;  // standard deviations; of the depth at the fall
+    if (!recording_.has("force_N") || !recording_.has("foot_z_m") || !recording_.has_time) return;
+    const ForceAtDepth pairs(recording_);
+    if (pairs.size() < 3 * kAirRows) return;
+    double air_N = 0.0;
+    for (std::size_t i = 0; i < kAirRows; ++i) air_N += pairs.force_N[i] / kAirRows;
+    const double clear_N = kClear * noise_of_bends(pairs.force_N);
+    const double clear_m = kClear * noise_of_bends(pairs.z_m);
+    std::size_t released = pairs.size();
+    while (released > 0 && std::abs(pairs.force_N[released - 1] - air_N) <= clear_N) --released;
+    if (released == 0 || pairs.size() - released < kAirRows || pairs.z_m[kAirRows - 1] < 0.0) return;
+    double deepest_m = -pairs.z_m.front();
+    for (const double z_m : pairs.z_m) {
+      if (-z_m < deepest_m - clear_m) return;
+      deepest_m = std::max(deepest_m, -z_m);
+    }
+    const double released_m = -pairs.z_m[released - 1], on_m = deepest_m - released_m;
+    if (!(released_m > 0.0) || on_m <= std::max(clear_m, kGoesOn * released_m)) return;
+    doubt_column(
+        recording_, places_, places_.is_stated("foot_z_m"), "foot_z_m",
+        fmt::format("grows from {:.3g} to {:.3g} mm after the force fell back to that of the air, and "
+                    "never goes back: a foot without force is out of the bed, and the depth counts "
+                    "the way back as further depth",
+                    1e3 * released_m, 1e3 * deepest_m),
+        fmt::format("count it with its direction, or end the trial where the foot turns: select = {{ "
+                    "to_line = {} }}",
+                    places_.line_of(pairs.rows[turn_of(pairs.force_N, clear_N)])));
+  }
+
+  // Last row before the force falls for good.
+  static std::size_t turn_of(const std::vector<double>& force_N, double clear_N) {
+    std::size_t peak = 0;
+    for (std::size_t i = 0; i < force_N.size(); ++i)
+      if (force_N[i] >= force_N[peak]) peak = i;
+    while (peak + 1 < force_N.size() && force_N[peak + 1] > force_N[peak] - clear_N) ++peak;
+    return peak;
   }
 
   // `factor`: from the present values to the true ones; -1 also turns the offset.

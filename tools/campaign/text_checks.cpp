@@ -1,6 +1,7 @@
 #include "tools/campaign/text_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <istream>
@@ -37,6 +38,7 @@ class TextChecker {
     complain_of_names(text.names_again);
     complain_of_groups(text.grouped);
     complain_of_units(text.units_by_row);
+    for (const auto& flag : text.flags) tell_of_flag(flag);
     if (text.time) complain_of_time(*text.time, *range.time);
   }
 
@@ -123,6 +125,23 @@ class TextChecker {
   static std::string decimal_of(std::string text) {
     std::ranges::replace(text, ',', '.');
     return text;
+  }
+
+  void tell_of_flag(const FlagColumn& flag) {
+    const auto& name = table_.names[flag.column];
+    if (is_used_[flag.column] || name == trial_.rows.column) return;
+    const auto select =
+        flag.is_number
+            ? fmt::format("leave them out with select = {{ column = \"{}\", value = {:g} }}", name, flag.good)
+            : fmt::format(
+                  "to leave them out write 1 and 0 for its words, and select = {{ column = \"{}\", "
+                  "value = 1 }}",
+                  name);
+    findings_.push_back({FindingKind::file_format, note, out_.file, flag.first_line, 1, name,
+                         fmt::format("marks {} of {} rows with {}, this one first, and they are used like "
+                                     "all others",
+                                     flag.marked, flag.rows, fmt::join(flag.texts, ", ")),
+                         select + " in the [[trial]], if that means that they are not to be used"});
   }
 
   void complain_of_units(const std::vector<UnitsByRow>& columns) {
@@ -214,6 +233,7 @@ TableText look_at_text(std::istream& in, const CsvTable& table, const CsvFormat&
   NamesAgain names(table);
   GroupedDigits groups(table);
   UnitColumns units(table);
+  FlagColumns flags(table);
   PreambleUnits above(table);
   std::optional<TimeTexts> times;
   if (range.time) times.emplace(table, *range.time);
@@ -223,10 +243,15 @@ TableText look_at_text(std::istream& in, const CsvTable& table, const CsvFormat&
     names.take(row);
     groups.take(row);
     units.take(row);
+    if (row.line >= range.first_line && row.line <= range.last_line) flags.take(row);
     if (times && row.line >= range.first_line && row.line <= range.last_line) times->take(row);
   });
-  return {names.take_lines(), groups.cells(), units.found(), above.take_units(),
-          times ? times->doubt() : std::nullopt};
+  return {names.take_lines(),
+          groups.cells(),
+          units.found(),
+          above.take_units(),
+          times ? times->doubt() : std::nullopt,
+          flags.found()};
 }
 
 std::vector<std::string> take_units_of_text(const TableText& text, CsvTable& table,

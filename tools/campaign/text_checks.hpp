@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/campaign/flag_columns.hpp"
 #include "tools/campaign/names_again.hpp"
 #include "tools/campaign/preamble_units.hpp"
 #include "tools/campaign/read_table.hpp"
@@ -19,6 +20,7 @@ struct TableText {
   std::vector<UnitsByRow> units_by_row{};
   std::vector<PreambleUnit> units_above{};
   std::optional<TimeTextDoubt> time{};
+  std::vector<FlagColumn> flags{};
 };
 
 struct TextRange {

@@ -19,10 +19,41 @@ namespace {
 
 constexpr double kLostRow = 1.5;  // as in are_lost_rows of sample_times.cpp
 
+// True if the foot is above the surface on both sides of the jump, and no force before it is clear of the
+// noise. Nothing touched the foot, so it may have been moved fast; the depth after it counts.
+bool is_jump_in_air(const TrialRecording& recording, const Jump& jump,
+                    const std::vector<StepSample>& samples) {
+  constexpr double kForceClear = 5.0;  // in standard deviations of the noise
+  if (!recording.has("foot_z_m") || !recording.has("force_N")) return false;
+  if (samples[jump.before].value <= 0.0 || samples[jump.after].value <= 0.0) return false;
+  std::vector<double> forces;
+  for (std::size_t row = 0; row <= samples[jump.after].row; ++row)
+    if (const double force = recording.channel("force_N")[row]; !std::isnan(force)) forces.push_back(force);
+  if (forces.empty()) return false;
+  const auto [low, high] = std::ranges::minmax(forces);
+  return high - low <= 2.0 * kForceClear * noise_of_bends(forces);
+}
+
+// The mapping by which the part after the jump goes on from the part before it; empty without a column.
+std::string continuing_cure(const RecordingPlaces& places, std::string_view channel, const Jump& jump,
+                            const std::vector<StepSample>& samples) {
+  const auto* column = places.column_of(channel);
+  if (column == nullptr) return "";
+  const double before = samples[jump.before].value - samples[jump.before - 1].value;
+  const double after = samples[jump.after + 1].value - samples[jump.after].value;
+  const double steps = static_cast<double>(jump.after - jump.before);
+  auto moved = *column;
+  moved.offset -= samples[jump.after].value - samples[jump.before].value - 0.5 * (before + after) * steps;
+  return fmt::format(
+      "; if its zero was set anew, the second needs columns = {{ {} }}, by which it goes on from the first",
+      mapping_line(moved));
+}
+
 void check_jump(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel) {
   const auto samples = step_samples(recording, channel);
-  const auto [before, at] = only_jump(samples);
-  if (at == 0) return;
+  const auto jump = only_jump(samples);
+  const auto [before, at] = jump;
+  if (at == 0 || (channel == "foot_z_m" && is_jump_in_air(recording, jump, samples))) return;
   const auto line = places.line_of(samples[at].row);
   doubt_column(
       recording, places, places.is_stated(channel), channel,
@@ -30,8 +61,9 @@ void check_jump(TrialRecording& recording, const RecordingPlaces& places, std::s
                   "other row: its zero was set anew, or another recording begins",
                   samples[at].value - samples[before].value, line),
       fmt::format("give each part a [[trial]], select = {{ to_line = {} }} and select = {{ from_line = "
-                  "{} }}",
-                  places.line_of(samples[before].row), line));
+                  "{} }}{}",
+                  places.line_of(samples[before].row), line,
+                  continuing_cure(places, channel, jump, samples)));
 }
 
 // The row of the only step that stands out from both of its neighbours by ten times more than any other two

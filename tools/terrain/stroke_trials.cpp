@@ -46,7 +46,7 @@ class Stroke {
       return;
     }
     find_motion();
-    force_N_.assign(in_.channel("force_N").begin(), in_.channel("force_N").end());
+    take_forces();
     remove_offset();
     collect();
     if (loading_.size() < kFewestSamples) {
@@ -85,6 +85,39 @@ class Stroke {
   static void take_where_recorded(const std::vector<double>& recorded, std::vector<double>& values) {
     for (std::size_t row = 0; row < values.size(); ++row)
       if (!std::isnan(recorded[row])) values[row] = recorded[row];
+  }
+
+  // Takes the forces between the first and the last recorded depth. Before and after them the smoothed motion
+  // goes on at the speed it had, and no depth was measured.
+  void take_forces() {
+    const auto depth = in_.channel("foot_z_m"), force = in_.channel("force_N");
+    force_N_.assign(force.begin(), force.end());
+    const auto is_sample = [](double value) { return !std::isnan(value); };
+    const auto first = std::ranges::find_if(depth, is_sample);
+    const auto last = std::find_if(depth.rbegin(), depth.rend(), is_sample).base();
+    const auto from = static_cast<std::size_t>(first - depth.begin());
+    const auto to = static_cast<std::size_t>(last - depth.begin());
+    for (std::size_t row = 0; row < force_N_.size(); ++row)
+      if (row < from || row >= to) force_N_[row] = NAN;
+    if (ends_late(depth, force))
+      out_.ruled_out.emplace_back(
+          "force after the last recorded depth: foot_z_m ends before force_N, and no depth is assumed there");
+  }
+
+  // True if forces go on after the last depth for longer than any two depths are apart.
+  bool ends_late(std::span<const double> depth, std::span<const double> force) const {
+    double before_s = NAN, longest_s = 0.0, after_s = 0.0;
+    for (std::size_t row = 0; row < depth.size(); ++row) {
+      const double since_s = in_.t_s[row] - before_s;
+      if (!std::isnan(depth[row])) {
+        longest_s = std::fmax(longest_s, since_s);
+        before_s = in_.t_s[row];
+        after_s = 0.0;
+      } else if (!std::isnan(force[row])) {
+        after_s = since_s;
+      }
+    }
+    return after_s > longest_s;
   }
 
   // Subtracts the force sensor's reading in the air before the foot first meets the surface.
