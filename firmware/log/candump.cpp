@@ -76,6 +76,7 @@ std::string_view take_token(std::string_view& text) {
 std::int64_t parse_time(std::string_view token) {
   const char* const end = token.data() + token.size();
   std::int64_t seconds = 0;
+  if (token.starts_with('-')) bad("a negative time", token);  // -0.3 would be read as 0.3
   auto [place, error] = std::from_chars(token.data(), end, seconds);
   if (error != std::errc{} || seconds < 0 || seconds > INT64_MAX / kNanoseconds - 1) bad("not a time", token);
   std::int64_t fraction_ns = 0;

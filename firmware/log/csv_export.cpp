@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "firmware/log/csv_channels.hpp"
+#include "firmware/log/lost_records.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/record_layout.hpp"
 #include "firmware/log/topics.hpp"
@@ -111,13 +112,16 @@ class Exporter {
     out_ << line << '\n';
     TopicOf<LogGap> gaps(topic::kGap);
     LogGap gap;
+    LostRecords lost;
     for (mcap::Message message; log_.next(message);) {
       if (message.channel == frame_.channel) write_row();
       for (Source& source : sources_)
         if (message.channel == source.channel) source.message = message.data;
-      if (gaps.take(message, gap)) result_.lost_records += gap.lost;
+      if (gaps.take(message, gap)) lost.add(gap);
     }
     write_row();
+    result_.lost_records = lost.total();
+    result_.lost_text = lost.text();
     result_.truncated_at = log_.truncated_at();
     return std::move(result_);
   }

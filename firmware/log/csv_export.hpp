@@ -19,6 +19,7 @@ struct CsvExportResult {
   std::uint64_t rows = 0;
   std::vector<std::string> columns;
   std::uint64_t lost_records = 0;             // from the log's gap records
+  std::string lost_text;                      // the same with the causes
   std::optional<std::uint64_t> truncated_at;  // the log was cut here
 };
 

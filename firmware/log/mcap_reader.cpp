@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "firmware/log/mcap_damage.hpp"
 #include "firmware/log/mcap_unpack.hpp"
 
 namespace sandhopper::mcap {
@@ -19,7 +20,7 @@ using namespace std::string_view_literals;
 constexpr std::array kOtherFormats{
     OtherFormat{"\x28\xb5\x2f\xfd"sv, "it is compressed with zstd as a whole: zstd -d FILE -o OTHER.mcap"},
     OtherFormat{"\x04\x22\x4d\x18"sv, "it is compressed with lz4 as a whole: lz4 -d FILE OTHER.mcap"},
-    OtherFormat{"\x1f\x8b"sv, "it is compressed with gzip as a whole: gunzip FILE"},
+    OtherFormat{"\x1f\x8b"sv, "it is compressed with gzip as a whole: gunzip -c FILE > OTHER.mcap"},
     OtherFormat{"SQLite format 3"sv, "it is a rosbag2 of the sqlite3 kind: mcap convert FILE OTHER.mcap"},
     OtherFormat{"#ROSBAG V2"sv, "it is a bag of ROS 1: mcap convert FILE OTHER.mcap"},
     OtherFormat{"LOGG"sv,
@@ -29,13 +30,29 @@ constexpr std::array kOtherFormats{
     OtherFormat{"/annex/objects/"sv,
                 "it is a pointer of git-annex to a log that was not fetched: git annex get FILE"}};
 
+// The magic holds \r\n to show a transfer in text mode. Between them, each \n became \r\n or the reverse.
+constexpr auto kLineFeedsDoubled = "\x89MCAP0\r\r\n"sv;
+constexpr auto kCarriageReturnsGone = "\x89MCAP0\n"sv;
+
 std::string first_bytes_are(Bytes file) {
-  for (const auto& other : kOtherFormats)
-    if (text_of(file).starts_with(other.begins)) return other.what;
+  if (auto other = other_format_of(file); !other.empty()) return other;
   return file.empty() ? "it is empty" : "its first bytes are not MCAP's";
 }
 
 }  // namespace
+
+std::string other_format_of(Bytes file) {
+  const auto text = text_of(file);
+  for (const auto& other : kOtherFormats)
+    if (text.starts_with(other.begins)) return other.what;
+  if (text.starts_with(kLineFeedsDoubled))
+    return "a transfer in text mode put a carriage return before each line feed: transfer it again in binary "
+           "mode, or perl -pe 's/\\r\\n/\\n/' FILE > OTHER.mcap";
+  if (text.starts_with(kCarriageReturnsGone))
+    return "a transfer in text mode took carriage returns out of it: transfer it again in binary mode; hop "
+           "recover FILE saves the rest of this one";
+  return "";
+}
 
 Reader::Reader(const std::filesystem::path& file, ReaderOptions options)
     : name_(file.string()), options_(options), map_(file), file_(map_.bytes()) {
@@ -272,7 +289,7 @@ bool Reader::take_message(const Record& record, Message& message) {
 }
 
 void Reader::fail(std::uint64_t offset, const std::string& what) const {
-  throw Error(name_ + ": byte " + std::to_string(offset) + ": " + what);
+  throw Damaged(name_ + ": byte " + std::to_string(offset) + ": " + what);
 }
 
 void require_schema(const Channel& channel, const std::string& schema_name, const std::string& schema_text) {

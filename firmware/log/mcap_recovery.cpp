@@ -8,6 +8,7 @@
 #include "firmware/log/cycle_count.hpp"
 #include "firmware/log/log_recovery.hpp"
 #include "firmware/log/mapped_file.hpp"
+#include "firmware/log/mcap_damage.hpp"
 #include "firmware/log/mcap_parts.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/mcap_salvage.hpp"
@@ -372,9 +373,12 @@ LogRecovery recover_mcap(const std::filesystem::path& from, const std::filesyste
     copy.close();
     return found;
   }
-  if (found.topics.empty() && !recovery.has_channels())
+  if (found.topics.empty() && !recovery.has_channels()) {
+    if (const auto other = mcap::other_format_of(file.bytes()); !other.empty())
+      throw mcap::Error(from.string() + ": nothing can be read of it: " + other);
     throw mcap::Error(from.string() +
                       ": nothing can be read of it; it is no MCAP log, or was cut before its first record");
+  }
   try {
     found = recovery.copy(to, newest);
     found.add_rest_of_file(log);

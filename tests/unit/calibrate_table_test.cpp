@@ -112,6 +112,19 @@ TEST(CalibrateTable, TimesWithTooFewDigitsAreNamed) {
   EXPECT_EQ(read_text("t_s,force\n" + rows("0.{:03},1", 50) + "0.049,1\n").values, 51U) << "one repeat";
 }
 
+TEST(CalibrateTable, RowsThatStandTwiceAreNamed) {
+  std::string twice = "t_s,force\n", coarse = twice;
+  for (int i = 0; i < 200; ++i) {
+    for (int copy = 0; copy < 2; ++copy) twice += fmt::format("{:.3f},{}\n", 1e-3 * i, i % 7);
+    coarse += fmt::format("{:.2f},{}\n", 1e-3 * i, i % 7);
+  }
+  const auto read = read_text(twice);
+  EXPECT_THAT(read.error, AllOf(HasSubstr("200 of 400 rows are copies of the row before"),
+                                HasSubstr("the rows stand twice")));
+  EXPECT_THAT(read.cure, HasSubstr("uniq '"));
+  EXPECT_THAT(read_text(coarse).error, ::testing::Not(HasSubstr("stand twice")));
+}
+
 TEST(CalibrateTable, NothingIsAskedForACampaignThatThereIsNot) {
   const auto read = read_text("t_s;force\n" + rows("{0};1,{0:03}", 40));
   for (const auto& note : read.notes) EXPECT_THAT(note, ::testing::Not(HasSubstr("campaign.toml")));

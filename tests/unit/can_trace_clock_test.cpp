@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
 #include "tests/unit/can_trace_text.hpp"
 
 namespace sandhopper::trace {
@@ -77,6 +81,54 @@ TEST(CanTraceClock, TimesTooCoarseForTheCommandsAreSaid) {
   TraceText trace;
   for (int i = 0; i < 40; ++i) trace.command(i * kMs, 1).reply(i * kMs, 1);
   EXPECT_THAT(text_of(trace.report(), "coarse_times"), HasSubstr("resolution of 1 ms"));
+  EXPECT_TRUE(trace.report().trusted()) << "each command has a time of its own";
+  TraceText coarser;
+  for (unsigned i = 0; i < 400; ++i)
+    coarser.command(i / 10 * 0.01, 1, 0x8000 + i).reply(i / 10 * 0.01, 1, 0x8000 + i);
+  const auto report = coarser.report();
+  const auto coarse = std::ranges::find(report.findings, std::string("coarse_times"), &Finding::kind);
+  ASSERT_NE(coarse, report.findings.end());
+  EXPECT_THAT(coarse->text, HasSubstr("resolution of 10 ms"));
+  EXPECT_FALSE(coarse->trusted);
+}
+
+// Times in whole milliseconds; `wrap_s`: time after which they begin again.
+TraceText wrapping(double wrap_s, double begin_s) {
+  TraceText trace(0.0);
+  for (int i = 0; i < 1200; ++i) {
+    const double t = std::fmod(begin_s + i * kMs, wrap_s);
+    trace.command(t, 1).line(t, fmt::format("011#01{:04X}80F8004600", 0x8000 + i));
+  }
+  return trace;
+}
+
+TEST(CanTraceClock, ACounterThatBeginsAgainIsNoClockThatWasSetBack) {
+  const auto report = wrapping(60.0, 59.4).report();
+  EXPECT_THAT(
+      text_of(report, "clock_wraps"),
+      AllOf(HasSubstr("begin again after 60 s"), HasSubstr("line 1201 (59.999 s)"), HasSubstr("w += 60;")));
+  EXPECT_THAT(kinds(report), Not(Contains("clock_step")));
+  for (const auto& finding : report.findings) EXPECT_THAT(finding.text, Not(HasSubstr("nan")));
+  EXPECT_THAT(kinds(report), Not(Contains("frozen_replies")));
+  EXPECT_TRUE(wrapping(70.0, 59.4).report().trusted());
+  EXPECT_THAT(kinds(wrapping(60.1, 59.6).report()),
+              AllOf(Contains("clock_step"), Not(Contains("clock_wraps"))));
+}
+
+TEST(CanTraceClock, TheLineForACounterThatBeginsAgainGivesASoundTrace) {
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("wraps_{}", ::getpid());
+  std::filesystem::create_directories(folder);
+  const auto file = folder / "trace.log";
+  std::ofstream(file) << wrapping(60.0, 59.4).text();
+  const auto report = replay_can(file, {}).trace;
+  const auto cure = text_of(report, "clock_wraps");
+  ASSERT_NE(cure.find("awk"), std::string::npos);
+  const auto command = fmt::format("cd '{}' && {}", folder.string(), cure.substr(cure.find("awk")));
+  ASSERT_EQ(std::system(command.c_str()), 0) << command;  // NOLINT(concurrency-mt-unsafe)
+  const auto unwrapped = replay_can(folder / "unwrapped.log", {}).trace;
+  EXPECT_TRUE(unwrapped.trusted()) << ::testing::PrintToString(kinds(unwrapped));
+  EXPECT_EQ(unwrapped.decoded.size(), 1200U);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(CanTraceClock, FramesOfTwoClocksAreToldAsThat) {

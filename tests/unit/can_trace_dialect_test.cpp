@@ -109,6 +109,46 @@ TEST_F(Formats, CandumpWithoutLIsConvertedByTheLineGiven) {
   }
 }
 
+TEST_F(Formats, BytesInTheOtherOrderAreTurnedByTheLineGiven) {
+  const auto format =
+      of(" (1700000000.000260)  can0  011   [8]  00`46`38`68`66`00`80`01\n"
+         " (1700000000.001000)  can0  012   [2]  80`02\n"
+         " (1700000000.002000)  can0  012   [1]  80\n");
+  ASSERT_TRUE(format);
+  EXPECT_EQ(converted(*format),
+            std::string(kOneFrame) + "(1700000000.001000) can0 012#0280\n(1700000000.002000) can0 012#80\n");
+}
+
+TEST_F(Formats, ColoursOfATerminalAreRemovedByTheLineGiven) {
+  const auto format = of("\x1b[1;31m (1700000000.000260)  can0  011   [8]  01 80 00 66 68 38 46 00\x1b[0m\n");
+  ASSERT_TRUE(format);
+  EXPECT_THAT(format->what, HasSubstr("colours of a terminal"));
+  EXPECT_EQ(converted(*format), kOneFrame);
+  const auto log = of("\x1b[1;31m(1700000000.000260) can0 011#0180006668384600\x1b[0m\n");
+  ASSERT_TRUE(log);
+  EXPECT_EQ(converted(*log), kOneFrame);
+}
+
+TEST_F(Formats, NegativeTimesBeginAtZeroAfterTheLineGiven) {
+  const auto format =
+      of("(-0.300000) can0 001#80008000A3199800\n(-0.000100) can0 011#00\n(0.700000) can0 001#01\n");
+  ASSERT_TRUE(format);
+  EXPECT_THAT(format->what, HasSubstr("negative times"));
+  EXPECT_EQ(converted(*format),
+            "(0.000000) can0 001#80008000A3199800\n(0.299900) can0 011#00\n(1.000000) can0 001#01\n");
+}
+
+TEST_F(Formats, LostLeadingZerosArePutBackByTheLineGiven) {
+  const auto format = of("(1700000000.000260) can0 11#180006668384600\n(1700000000.001000) can0 1#0\n");
+  ASSERT_TRUE(format);
+  EXPECT_THAT(format->what, HasSubstr("as a spreadsheet saves it"));
+  const auto line = format->cure.substr(format->cure.find("awk"));
+  EXPECT_EQ(converted({"", line}),
+            std::string(kOneFrame) + "(1700000000.001000) can0 001#0000000000000000\n");
+  EXPECT_FALSE(of(std::string(kOneFrame) + kOneFrame + "(1700000000.001000) can0 1#80\n"))
+      << "one damaged line";
+}
+
 TEST_F(Formats, ACommaInTheTimesIsConvertedByTheLineGiven) {
   const auto format = of("(1700000000,000260) can0 011#0180006668384600\n");
   ASSERT_TRUE(format);

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "firmware/log/candump.hpp"
 #include "tests/unit/can_trace_text.hpp"
 #include "tools/trial/trace/recorder_loss.hpp"
 
@@ -102,6 +103,30 @@ TEST(CanTraceRecorder, MicrosecondsWithoutLeadingZerosAreNamed) {
               AllOf(HasSubstr("1 to 5 digits"), HasSubstr("microseconds"), HasSubstr("%06d")));
   EXPECT_THAT(kinds(report), Not(Contains("clock_step"))) << "a consequence";
   EXPECT_FALSE(report.trusted());
+}
+
+TEST(CanTraceRecorder, NumbersOfASpreadsheetAreNamed) {
+  TraceText trace;
+  for (int i = 0; i < 40; ++i) {
+    trace.command(i * kMs, 1);
+    if (i == 7 || i == 9)
+      trace.line(i * kMs + kReply, i == 7 ? "011#0.00E+768348204100" : "011#1.80007E+14");
+    else
+      trace.reply(i * kMs + kReply, 1);
+  }
+  const auto report = trace.report();
+  EXPECT_THAT(text_of(report, "spreadsheet_numbers"),
+              AllOf(HasSubstr("in 2 lines a spreadsheet turned the data into a number"), HasSubstr("line 16"),
+                    HasSubstr("import its columns as text")));
+  EXPECT_THAT(kinds(report), Not(Contains("missed_replies"))) << "a consequence";
+  EXPECT_FALSE(report.trusted());
+  TraceText sound;
+  for (int i = 0; i < 40; ++i) sound.command(i * kMs, 1).line(i * kMs + kReply, "011#010E00007FF84600");
+  EXPECT_THAT(kinds(sound.report()), Not(Contains("spreadsheet_numbers")));
+}
+
+TEST(CanTraceRecorder, ATimeWithAMinusIsNotReadWithoutIt) {
+  EXPECT_THROW(parse_candump("(-0.300000) can0 001#80008000A3199800"), CandumpError);
 }
 
 TEST(CanTraceRecorder, TimesWithoutTheirLastZerosAreRight) {

@@ -80,5 +80,15 @@ TEST(CanTraceSpeed, ATemperatureAtWhichTheRobotStopsIsNamed) {
   EXPECT_TRUE(none.trusted());
 }
 
+TEST(CanTraceSpeed, ATemperatureBelowFreezingIsNamed) {
+  const auto raw = trace_of({.temperature_code = 25}).report();
+  EXPECT_THAT(text_of(raw, "motor_below_freezing"),
+              AllOf(HasSubstr("100 of 100 replies give a temperature below 0 degrees C, down to -15"),
+                    HasSubstr("without the offset of 40 (25 degrees C)"), HasSubstr("\"temperature\"")));
+  EXPECT_TRUE(raw.trusted());
+  EXPECT_THAT(kinds(trace_of({.temperature_code = 40}).report()), Not(Contains("motor_below_freezing")));
+  EXPECT_THAT(kinds(trace_of({.temperature_code = 0}).report()), Not(Contains("motor_below_freezing")));
+}
+
 }  // namespace
 }  // namespace sandhopper::trace

@@ -38,6 +38,8 @@ class TraceText {
     return line(t_s, fmt::format("{:03X}#{:02X}{:04X}7FF83846{:02X}", id, drive, position, 0));
   }
 
+  const std::string& text() const { return text_; }
+
   // Writes the text to a file of this process, replays it and removes it.
   CanReplayResult replay(const CanReplaySetup& setup = {}) const {
     const auto file = std::filesystem::temp_directory_path() / fmt::format("trace_{}.log", ::getpid());

@@ -9,6 +9,7 @@
 
 #include "config/robot_config.hpp"
 #include "firmware/log/candump.hpp"
+#include "firmware/log/mcap_damage.hpp"
 #include "firmware/log/mcap_parts.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/mcap_writer.hpp"
@@ -185,6 +186,53 @@ TEST_F(Recover, WhatTheLogItselfRecordsAsMissingIsNotCountedTwice) {
   EXPECT_EQ(found.lost_in_gaps, 7U);
   EXPECT_EQ(found.lost(), 0U);
   EXPECT_EQ(found.topics.at("/event").saved, 13U);
+}
+
+std::string refusal(const std::filesystem::path& from, const std::filesystem::path& to) {
+  try {
+    recover_mcap(from, to);
+  } catch (const mcap::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Recover, AFormatThatIsMistakenForALogIsNamedWithItsConversion) {
+  const auto other = folder_ / "mistaken.mcap", to = folder_ / "none.mcap";
+  std::ofstream(other, std::ios::binary) << "\x89MCAP0\r\r\n" << std::string(50, 'x');
+  EXPECT_NE(refusal(other, to).find("transfer in text mode"), std::string::npos) << refusal(other, to);
+  EXPECT_NE(refusal(other, to).find("perl -pe 's/\\r\\n/\\n/' FILE"), std::string::npos);
+  std::ofstream(other, std::ios::binary) << "\x1f\x8b" << std::string(50, 'x');
+  EXPECT_NE(refusal(other, to).find("gunzip -c FILE > OTHER.mcap"), std::string::npos);
+  std::ofstream(other, std::ios::binary) << std::string(50, 'x');
+  EXPECT_NE(refusal(other, to).find("no MCAP log"), std::string::npos);
+}
+
+TEST_F(Recover, ADamagedLogIsToldFromAFileThatIsNone) {
+  const auto file = folder_ / "one_bit.mcap";
+  {
+    mcap::Writer writer(file);
+    const auto gaps = writer.add_channel<LogGap>(topic::kGap);
+    for (int i = 0; i < 100; ++i) writer.write(gaps, {}, LogGap{.lost = 7});
+    writer.close();
+  }
+  const auto read_all = [&] {
+    mcap::Reader log(file);
+    for (mcap::Message message; log.next(message);) {
+    }
+  };
+  EXPECT_NO_THROW(read_all());
+  std::string bytes = bytes_of_file(file);
+  bytes[bytes.size() / 4] ^= 1;
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_THROW(read_all(), mcap::Damaged);
+  std::ofstream(file, std::ios::binary) << "no log";
+  try {
+    read_all();
+    ADD_FAILURE() << "read";
+  } catch (const mcap::Error& error) {
+    EXPECT_EQ(dynamic_cast<const mcap::Damaged*>(&error), nullptr);
+  }
 }
 
 TEST_F(Recover, AnExistingFileIsNotOverwritten) {

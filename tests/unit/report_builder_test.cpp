@@ -171,5 +171,30 @@ TEST(LogReport, LogIsReadWithItsFactsAndConfiguration) {
   EXPECT_THAT(data.notes, testing::IsEmpty());
 }
 
+TEST(LogReport, MissingRecordsAreToldWithTheirCause) {
+  const auto file = std::filesystem::temp_directory_path() / "sandhopper_lost_records_test.mcap";
+  const auto note = [&](const std::vector<LogGap>& found) {
+    {
+      mcap::Writer writer(file);
+      const auto channel = writer.add_channel<StepOutput>(topic::kOutput);
+      const auto gaps = writer.add_channel<LogGap>(topic::kGap);
+      const StepOutput output = output_at(0);
+      writer.write(channel, {output.time_ns, output.time_ns}, output);
+      for (const auto& gap : found) writer.write(gaps, {}, gap);
+      writer.close();
+    }
+    const ReportData data = report_data_from_log(file);
+    std::filesystem::remove(file);
+    return data.notes.empty() ? "" : data.notes.front();
+  };
+  EXPECT_EQ(note({{.lost = 600, .cause = LossCause::damaged}, {.lost = 2, .cause = LossCause::damaged}}),
+            "602 records are missing: 602 were in damaged parts of the file from which hop recover made this "
+            "one.");
+  EXPECT_EQ(note({{.lost = 5, .cause = LossCause::ring_full}, {.lost = 1, .cause = LossCause::write_failed}}),
+            "6 records are missing: the logger was too slow for 5; 1 could not be written (the disk was full "
+            "or failed).");
+  EXPECT_EQ(note({}), "");
+}
+
 }  // namespace
 }  // namespace sandhopper

@@ -100,6 +100,8 @@ ForeignTable read_foreign_table(const std::filesystem::path& file, const std::st
   if (const auto problem = times_that_are_no_numbers(name, table))
     throw ForeignTableError(problem->text, problem->cure);
   const auto place = static_cast<std::size_t>(time - table.columns.data());
+  if (const auto problem = rows_that_stand_twice(name, table, *time))
+    throw ForeignTableError(problem->text, problem->cure);
   if (const auto problem = times_too_coarse(name, *time, table.numbers[place]))
     throw ForeignTableError(problem->text, problem->cure);
   ForeignTable out{{file.filename().string(), {}}, 1.0, {}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <regex>
 
 #include "tools/calibrate/taps.hpp"
@@ -75,6 +76,27 @@ std::optional<TimeProblem> times_that_are_no_numbers(const std::string& name, co
   const char mark = found[1].str().front();
   return TimeProblem{fmt::format("{}: its marks stand between thousands", line),
                      removal_of(mark, name, table, number)};
+}
+
+std::optional<TimeProblem> rows_that_stand_twice(const std::string& name, const CsvTable& table,
+                                                 const std::vector<double>& time_s) {
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  std::size_t copies = 0;
+  bool changes = false;  // constant values would be the same without copies
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const bool equal = std::ranges::all_of(
+        table.columns, [&](const auto& column) { return same(column[i], column[i - 1]); });
+    if (equal) ++copies;
+    if (time_s[i] == time_s[i - 1] && !equal) return std::nullopt;
+    for (const auto& column : table.columns) changes |= &column != &time_s && !same(column[i], column[i - 1]);
+  }
+  if (2 * copies + 1 < time_s.size() || !changes) return std::nullopt;
+  return TimeProblem{fmt::format("{}: {} of {} rows are copies of the row before, time and values: the rows "
+                                 "stand twice",
+                                 name, copies, time_s.size()),
+                     fmt::format("see whether two programs wrote into it; to take each row once: uniq '{}' > "
+                                 "once.csv",
+                                 name)};
 }
 
 std::optional<TimeProblem> times_too_coarse(const std::string& name, const std::vector<double>& time_s,

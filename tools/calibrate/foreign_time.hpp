@@ -23,6 +23,9 @@ struct TimeProblem {
 };
 // Most rows have a time that is no number: marks between thousands, or other characters.
 std::optional<TimeProblem> times_that_are_no_numbers(const std::string& name, const CsvTable& table);
+// At least half of the rows are copies of the row before, and no row has only its time.
+std::optional<TimeProblem> rows_that_stand_twice(const std::string& name, const CsvTable& table,
+                                                 const std::vector<double>& time_s);
 // At least half of the rows have the time of the row before, because the times have too few digits.
 std::optional<TimeProblem> times_too_coarse(const std::string& name, const std::vector<double>& time_s,
                                             std::size_t column_number);

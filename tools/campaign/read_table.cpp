@@ -131,9 +131,7 @@ class TableReader {
     if (exported.truncated_at)
       add(FindingKind::unreadable_file, note, 0,
           fmt::format("the log is cut at byte {}", *exported.truncated_at), "what precedes the cut is used");
-    if (exported.lost_records > 0)
-      add(FindingKind::gap, note, 0,
-          fmt::format("{} records were lost when it was logged", exported.lost_records), "");
+    if (exported.lost_records > 0) add(FindingKind::gap, note, 0, exported.lost_text, "");
   }
 
   // Reads the table. The time column is the mapped one, or t_s if the file does not have the mapped one.

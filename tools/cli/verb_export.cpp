@@ -5,6 +5,7 @@
 #include "firmware/log/csv_export.hpp"
 #include "firmware/log/mcap_reader.hpp"
 #include "firmware/log/trial_sheet.hpp"
+#include "tools/cli/log_cure.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/trial/ground_export.hpp"
 #include "tools/trial/layouts/layouts.hpp"
@@ -84,7 +85,7 @@ void check_log(const std::filesystem::path& log, const std::filesystem::path& cs
   try {
     const mcap::Reader reader(log, {.check_crc = false});
   } catch (const mcap::Error& problem) {
-    throw Failure(ExitCode::usage, problem.what(), "name the .mcap file of a trial");
+    throw Failure(ExitCode::usage, problem.what(), cure_of(problem, log, "name the .mcap file of a trial"));
   }
 }
 
@@ -101,13 +102,14 @@ ExitCode export_log(Session& session, const Options& options) {
     result = export_csv(options.log, out,
                         {.optional_channels = options.all, .phase_names = !options.phase_numbers});
   } catch (const mcap::Error& error) {
-    throw Failure(ExitCode::usage, error.what(), "name the .mcap file of a trial");
+    throw Failure(ExitCode::usage, error.what(),
+                  cure_of(error, options.log, "name the .mcap file of a trial"));
   }
   if (!out.flush()) throw Failure(ExitCode::fault, "cannot write " + path.string(), "check the free space");
   session.say("{}: {} rows, {} columns", path.string(), result.rows, result.columns.size());
   if (result.truncated_at)
     session.say("the log is cut at byte {}; exported up to there", *result.truncated_at);
-  if (result.lost_records > 0) session.say("{} records were lost when it was logged", result.lost_records);
+  if (result.lost_records > 0) session.say_line(result.lost_text);
   const auto ground = write_ground_beside(options.log, path);
   for (const auto& file : ground) session.say("ground: {}", file);
   const auto sheet = write_sheet_beside(options.log, path);

@@ -1,4 +1,5 @@
 #include "firmware/log/mcap_reader.hpp"
+#include "tools/cli/log_cure.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/replay_trace.hpp"
 #include "tools/cli/verb.hpp"
@@ -18,7 +19,8 @@ ExitCode replay(Session& session, const Options& options) {
   try {
     result = replay_log(options.log, [&](double share) { progress.at(share); });
   } catch (const mcap::Error& error) {
-    throw Failure(ExitCode::usage, error.what(), "name the .mcap file of a trial made by this build");
+    throw Failure(ExitCode::usage, error.what(),
+                  cure_of(error, options.log, "name the .mcap file of a trial made by this build"));
   }
   const bool identical = !result.mismatch;
   session.say("{}: {} cycles, {} events, {} strides replayed in {:.3f} s, {:.0f} x real time", options.log,
@@ -26,7 +28,7 @@ ExitCode replay(Session& session, const Options& options) {
   if (result.truncated_at)
     session.say("the log is cut at byte {}; compared up to there", *result.truncated_at);
   if (result.gaps > 0)
-    session.say("{} records were lost when it was logged; what follows a gap differs by that", result.gaps);
+    session.say("{} records are missing in the log; what follows a gap differs by that", result.gaps);
   if (identical)
     session.say("identical: every output, event and stride is the same to the bit");
   else

@@ -2,6 +2,7 @@
 
 #include "firmware/log/log_content.hpp"
 #include "firmware/log/mcap_reader.hpp"
+#include "tools/cli/log_cure.hpp"
 #include "tools/cli/verb.hpp"
 #include "tools/report/log_report.hpp"
 #include "tools/report/trial_page.hpp"
@@ -39,7 +40,8 @@ ReportData read(const std::filesystem::path& log) {
     if (data.time_s.empty()) throw no_cycle(log);
     return data;
   } catch (const mcap::Error& error) {
-    throw Failure(ExitCode::usage, error.what(), "name the .mcap file of a trial made by this build");
+    throw Failure(ExitCode::usage, error.what(),
+                  cure_of(error, log, "name the .mcap file of a trial made by this build"));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "config/node.hpp"
+#include "firmware/log/lost_records.hpp"
 #include "firmware/log/topics.hpp"
 #include "firmware/log/trial_description.hpp"
 #include "firmware/log/trial_sheet.hpp"
@@ -47,7 +48,7 @@ struct Feed {
   GroundEvents found{};
   PlantTruth truth{};
   LogGap gap{};
-  std::uint64_t lost = 0;
+  LostRecords lost{};
 
   void take(const mcap::Message& message, ReportBuilder& builder) {
     if (pass_on(frames, message, frame, builder) || pass_on(outputs, message, output, builder) ||
@@ -55,7 +56,7 @@ struct Feed {
         pass_on(profiles, message, profile, builder) || pass_on(grounds, message, ground, builder) ||
         pass_on(ground_events, message, found, builder) || pass_on(truths, message, truth, builder))
       return;
-    if (gaps.take(message, gap)) lost += gap.lost;
+    if (gaps.take(message, gap)) lost.add(gap);
   }
 };
 
@@ -121,7 +122,7 @@ void add_attached(const mcap::Reader& log, ReportData& data) {
   }
 }
 
-void add_notes(const mcap::Reader& log, std::uint64_t lost, ReportData& data) {
+void add_notes(const mcap::Reader& log, const LostRecords& lost, ReportData& data) {
   if (log.truncated_at()) {
     data.notes.push_back(
         fmt::format("The log was cut: it is read up to byte {} of {}, its last whole record.",
@@ -129,10 +130,10 @@ void add_notes(const mcap::Reader& log, std::uint64_t lost, ReportData& data) {
   }
   if (!log.damaged_chunks().empty()) {
     data.notes.push_back(
-        fmt::format("{} damaged chunks of the log were passed over.", log.damaged_chunks().size()));
+        fmt::format("{} damaged chunks of the log were passed over: hop recover says what is missing.",
+                    log.damaged_chunks().size()));
   }
-  if (lost > 0)
-    data.notes.push_back(fmt::format("{} records are missing: the logger was too slow for them.", lost));
+  if (lost.total() > 0) data.notes.push_back(lost.text() + ".");
   if (data.time_s.empty()) data.notes.push_back("The log holds no cycle.");
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
 
 #include "tools/trial/trace/timing.hpp"
 
@@ -60,6 +62,39 @@ std::string places(const std::vector<ClockEvent>& events) {
   return text;
 }
 
+// Counters of adapters that begin again: milliseconds of a minute (slcan), of 16 bits and of 32 bits, and
+// microseconds of 32 bits.
+constexpr std::array<std::int64_t, 4> kWraps_ns{60'000'000'000, 65'536'000'000, 4'294'967'296'000,
+                                                4'294'967'296'000'000};
+
+// Time after which the clock begins again; empty if some step back is another one. A step back by that time,
+// less some periods, goes on without a pause.
+std::optional<std::int64_t> wrap_of(const ClockReport& report, std::int64_t period_ns) {
+  if (report.steps_back.empty() || period_ns <= 0) return std::nullopt;
+  constexpr std::int64_t kLongestStep = 3;  // periods
+  const auto found = std::ranges::find_if(kWraps_ns, [&](std::int64_t wrap_ns) {
+    return std::ranges::all_of(report.steps_back, [&](const ClockEvent& step) {
+      const std::int64_t goes_on_ns = step.change_ns + wrap_ns;
+      return step.time_ns <= wrap_ns && goes_on_ns >= -report.resolution_ns &&
+             goes_on_ns <= kLongestStep * period_ns;
+    });
+  });
+  return found == kWraps_ns.end() ? std::nullopt : std::optional(*found);
+}
+
+Finding wrap_finding(const ClockReport& report, const std::string& file, std::int64_t wrap_ns) {
+  const double wrap_s = seconds(wrap_ns);
+  return {
+      "clock_wraps",
+      fmt::format("the times begin again after {:.10g} s, as a counter in the adapter does: {}", wrap_s,
+                  places(report.steps_back)),
+      fmt::format("let them go on: awk '/^[(]/ {{ t = substr($1, 2) + 0; if (n++) {{ if (t < l - {0:.10g}) "
+                  "w += {1:.10g}; if (w > 0 && t > l + {0:.10g}) w -= {1:.10g} }} l = t; sub(/^[(][0-9.]+/, "
+                  "sprintf(\"(%.6f\", t + w)) }} 1' '{2}' > unwrapped.log",
+                  0.5 * wrap_s, wrap_s, file),
+      false};
+}
+
 }  // namespace
 
 ClockReport examine_clock(const std::vector<Frame>& frames, std::int64_t pause_ns) {
@@ -106,7 +141,9 @@ Findings clock_findings(const ClockReport& report, const Trace& trace, std::int6
   }
   // A single clock is not set so often; see can-utils issue 233.
   constexpr std::size_t kManySteps = 3;
-  if (report.steps_back.size() > kManySteps)
+  if (const auto wrap_ns = wrap_of(report, period_ns))
+    out.push_back(wrap_finding(report, trace.file, *wrap_ns));
+  else if (report.steps_back.size() > kManySteps)
     out.push_back({"several_clocks",
                    fmt::format("times jump to and fro {} times, as of several clocks: {}",
                                report.steps_back.size(), places(report.steps_back)),
@@ -134,7 +171,7 @@ Findings clock_findings(const ClockReport& report, const Trace& trace, std::int6
                                "replies and speeds cannot be told from {}",
                                1e-6 * static_cast<double>(report.resolution_ns),
                                1e-6 * static_cast<double>(period_ns), trace.file),
-                   "record with microseconds: candump -L", false});
+                   "record with microseconds: candump -L", report.resolution_ns <= period_ns});
   return out;
 }
 

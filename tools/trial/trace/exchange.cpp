@@ -118,6 +118,16 @@ std::vector<std::int64_t> times_of(const std::vector<Frame>& frames) {
   return out;
 }
 
+// Median step; the mean if most frames have the time of the frame before, in batches or with coarse times.
+std::int64_t period_of(const std::vector<Frame>& frames) {
+  const auto step_ns = steps(times_of(frames));
+  const std::int64_t middle_ns = median(step_ns);
+  if (middle_ns != 0 || step_ns.empty()) return middle_ns;
+  const std::int64_t mean_ns =
+      (frames.back().time_ns - frames.front().time_ns) / static_cast<std::int64_t>(step_ns.size());
+  return std::max<std::int64_t>(mean_ns, 0);
+}
+
 }  // namespace
 
 Exchange examine_exchange(const std::vector<Frame>& frames, const Roles& roles, Side side,
@@ -145,7 +155,7 @@ Exchange examine_exchange(const std::vector<Frame>& frames, const Roles& roles, 
   if (!frames.empty()) pairing.end(frames.back().time_ns);
   e.replies = replies.size();
   const bool answers = motor.dialect != Dialect::servo && !commands.empty();
-  e.period_ns = median(steps(times_of(answers ? commands : replies)));
+  e.period_ns = period_of(answers ? commands : replies);
   if (!answers) {
     e.missed = e.most_missed = e.late = e.unasked = 0;
     e.latest_ns = 0;

@@ -63,14 +63,15 @@ constexpr std::array kMagics{
 
 // Joins the cells after "[8]". Interface and identifier come before it with every option of candump. A remote
 // frame has the words "remote request" in place of data; the length of a CAN FD frame has two digits. Lines
-// about lost frames are kept as comments.
+// about lost frames are kept as comments. candump -S writes the bytes in the other order, with ` between
+// them.
 constexpr const char* kLongCandump =
     "awk '/DROPCOUNT/ {{ print \"# \" $0 }} /^ *\\([0-9.]+\\)/ {{ for (i = 3; i <= NF && $i !~ /^\\[/; ++i); "
     "n = substr($i, 2, length($i) - 2); d = length(n) > 1 ? \"##0\" : \"#\"; if (/remote request/) d = "
     "\"#R\" "
-    "n; else for (j = i + 1; j <= NF && $j ~ /^[0-9A-F][0-9A-F]$/; ++j) d = d $j; print $1, $2, $(i - 1) d "
-    "}}' "
-    "'{0}' > '{1}'";
+    "n; else if ($(i + 1) ~ /`/) for (j = split($(i + 1), b, \"`\"); j > 0; --j) d = d b[j]; else for (j = i "
+    "+ "
+    "1; j <= NF && $j ~ /^[0-9A-F][0-9A-F]$/; ++j) d = d $j; print $1, $2, $(i - 1) d }}' '{0}' > '{1}'";
 // Between identifier and length stand letters: S standard, E error, R remote, F CAN FD.
 constexpr const char* kPrinted =
     "awk '/^Timestamp:/ {{ d = \"#\"; id = toupper($4); for (i = 5; i <= NF && $i != \"DL:\"; ++i) {{ if ($i "
@@ -89,6 +90,17 @@ constexpr const char* kSlcan =
     "$4); $t = hex(substr($d, 2 * $n, 4)); $w += 60000 if defined $l && $t < $l; $l = $t; "
     "printf(\"(%d.%03d000) can0 %s#%s\\n\", ($w + $t) / 1000, ($w + $t) % 1000, $i, uc(substr($d, 0, 2 * "
     "$n)))' '{0}' > '{1}'";
+
+// The first time becomes 0.
+constexpr const char* kNegative =
+    "awk '/^[(]/ {{ t = substr($1, 2) + 0; if (!n++) b = t; sub(/^[(][-0-9.]+/, sprintf(\"(%.6f\", t - b)) "
+    "}} "
+    "1' '{0}' > '{1}'";
+constexpr const char* kPadded =
+    "import these columns as text into the spreadsheet; if every frame had eight bytes, the zeros can be put "
+    "back: awk '/^[(]/ {{ split($3, p, \"#\"); while (length(p[1]) < 3) p[1] = \"0\" p[1]; while "
+    "(length(p[2]) < 16) p[2] = \"0\" p[2]; $3 = p[1] \"#\" p[2] }} 1' '{0}' > '{1}'";
+constexpr const char* kUncoloured = "sed 's/\\x1b\\[[0-9;]*m//g' '{0}'";
 
 struct Pattern {
   const char* regex;  // matches a line
@@ -114,6 +126,9 @@ constexpr std::array kPatterns{
     Pattern{R"(^\([0-9]+,[0-9]+\)\s+\S+\s+[0-9A-Fa-f]+#.*)",
             "text of candump with a comma for the decimal point of its times",
             "sed -E 's/^[(]([0-9]+),/(\\1./' '{0}' > '{1}'"},
+    Pattern{R"(^\(-[0-9]+\.[0-9]+\)\s+\S+\s+[0-9A-Fa-f]+#.*)",
+            "text of candump with negative times, as a recorder writes that counts from its trigger",
+            kNegative},
     Pattern{R"(^(t[0-9A-Fa-f]{4,}|T[0-9A-Fa-f]{9,})\r[\s\S]*)",
             "a dump of an slcan adapter, with times in whole milliseconds", kSlcan}};
 
@@ -126,8 +141,7 @@ std::string beginning_of(const std::filesystem::path& file) {
   return text;
 }
 
-std::optional<ForeignFormat> by_lines(const std::string& text, const std::string& file,
-                                      const std::string& log) {
+std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size();) {
     const auto end = std::min(text.find('\n', begin), text.size());
@@ -135,13 +149,55 @@ std::optional<ForeignFormat> by_lines(const std::string& text, const std::string
     if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
     begin = end + 1;
   }
+  return lines;
+}
+
+// Identifiers of one or two digits in at least half of the frames; a damaged line may have one, too.
+bool lost_leading_zeros(const std::vector<std::string>& lines) {
+  static const std::regex frame(R"(^\([0-9.]+\)\s+\S+\s+[0-9A-Fa-f]+#.*)");
+  static const std::regex lost(R"(^\([0-9.]+\)\s+\S+\s+[0-9A-Fa-f]{1,2}#[0-9A-Fa-f]*\s*)");
+  std::size_t frames = 0, short_ones = 0;
+  for (const auto& line : lines) {
+    frames += std::regex_match(line, frame);
+    short_ones += std::regex_match(line, lost);
+  }
+  return frames > 0 && 2 * short_ones >= frames;
+}
+
+std::optional<ForeignFormat> by_lines(const std::string& text, const std::string& file,
+                                      const std::string& log) {
+  const auto lines = lines_of(text);
   for (const auto& pattern : kPatterns) {
     const std::regex regex(pattern.regex);
     for (const auto& line : lines)
       if (std::regex_match(line, regex))
         return ForeignFormat{pattern.what, fmt::format(fmt::runtime(pattern.cure), file, log)};
   }
+  if (lost_leading_zeros(lines))
+    return ForeignFormat{
+        "text of candump without the leading zeros of identifiers and data, as a spreadsheet saves it",
+        fmt::format(fmt::runtime(kPadded), file, log)};
   return std::nullopt;
+}
+
+// Text with the colours of a terminal, as candump -c writes it. The cure also converts what is below them, if
+// that is one command on the file.
+std::optional<ForeignFormat> coloured(const std::string& text, const std::string& file,
+                                      const std::string& log) {
+  static const std::regex colour("\x1b\\[[0-9;]*m");
+  if (!std::regex_search(text, colour)) return std::nullopt;
+  const std::string plain = fmt::format(fmt::runtime(kUncoloured), file);
+  ForeignFormat out{"text with the colours of a terminal, as candump -c writes it",
+                    fmt::format("{} > '{}'", plain, log)};
+  const auto below = by_lines(std::regex_replace(text, colour, ""), file, log);
+  if (!below) return out;
+  const std::string from = fmt::format(" '{}' > ", file);
+  const auto place = below->cure.find(from);
+  out.what = fmt::format("{} with the colours of a terminal (candump -c)", below->what);
+  if (place != std::string::npos && below->cure.starts_with("awk "))
+    out.cure = fmt::format("{} | {} > {}", plain, below->cure.substr(0, place),
+                           below->cure.substr(place + from.size()));
+  return out;
 }
 
 }  // namespace
@@ -154,6 +210,7 @@ std::optional<ForeignFormat> recognise_format(const std::filesystem::path& file)
   for (const auto& magic : kMagics)
     if (text.starts_with(magic.bytes))
       return ForeignFormat{magic.what, fmt::format(fmt::runtime(magic.cure), file.string(), log)};
+  if (auto format = coloured(text, file.string(), log)) return format;
   return by_lines(text, file.string(), log);
 }
 

@@ -27,8 +27,14 @@ double velocity_step_radps(const CubeMarsConfig& motor) {
 
 double mean_period_s(const std::vector<const TimedReading*>& replies) {
   if (replies.size() < 2) return 0.0;
-  return 1e-9 * static_cast<double>(replies.back()->trace_ns - replies.front()->trace_ns) /
-         static_cast<double>(replies.size() - 1);
+  const std::int64_t whole_ns = replies.back()->trace_ns - replies.front()->trace_ns;
+  if (whole_ns > 0) return 1e-9 * static_cast<double>(whole_ns) / static_cast<double>(replies.size() - 1);
+  std::int64_t forward_ns = 0, count = 0;
+  for (std::size_t i = 1; i < replies.size(); ++i) {
+    const std::int64_t step_ns = replies[i]->trace_ns - replies[i - 1]->trace_ns;
+    if (step_ns >= 0) forward_ns += step_ns, ++count;
+  }
+  return count > 0 ? 1e-9 * static_cast<double>(forward_ns) / static_cast<double>(count) : 0.0;
 }
 
 double fastest_radps(const std::vector<const TimedReading*>& replies) {

@@ -14,6 +14,11 @@ inline constexpr double kTravelSteps = 20.0;
 inline constexpr double kFastest = 2.0;
 // Times of replies that an adapter delivers late count with the usual step; a longer pause hides the motion.
 inline constexpr std::int64_t kLongestStep = 3;
+// With more parts of a trace Student's t hardly falls, with fewer it rises fast.
+inline constexpr std::size_t kParts = 10;
+// Published ranges differ by a fifth or more (tools/calibrate/velocity_range.cpp). The limit lies halfway
+// between the right range and the nearest wrong one.
+inline constexpr double kDifferent = 0.1;
 
 // In the order of the times.
 std::vector<const TimedReading*> replies_of(const std::vector<TimedReading>& decoded, Side side);
@@ -22,7 +27,8 @@ std::vector<const TimedReading*> replies_of(const std::vector<TimedReading>& dec
 double position_step_rad(const CubeMarsConfig& motor);
 double velocity_step_radps(const CubeMarsConfig& motor);
 
-// Mean time between replies. An adapter that delivers in batches makes the median too short.
+// Mean time between replies, without steps of the clock backward. An adapter that delivers in batches makes
+// the median too short.
 double mean_period_s(const std::vector<const TimedReading*>& replies);
 double fastest_radps(const std::vector<const TimedReading*>& replies);  // largest |speed|
 

@@ -15,11 +15,6 @@
 namespace sandhopper::trace {
 namespace {
 
-// With more parts Student's t hardly falls, with fewer it rises fast.
-constexpr std::size_t kParts = 10;
-// Published ranges differ by a fifth or more (tools/calibrate/velocity_range.cpp). The limit lies halfway
-// between the right range and the nearest wrong one.
-constexpr double kDifferent = 0.1;
 struct Step {
   double moved_rad = 0.0;
   double velocity_radps = 0.0;  // mean of both replies

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "tools/trial/trace/recorder_loss.hpp"
+#include "tools/trial/trace/spreadsheet.hpp"
 
 namespace sandhopper::trace {
 namespace {
@@ -57,6 +58,8 @@ class TraceBuilder {
     } catch (const CandumpError& error) {
       if (line.find("##") != std::string_view::npos)
         count_fd(line, trace_);
+      else if (has_spreadsheet_number(line))
+        take_number(line, number);
       else
         torn_ = BadLines{1, number, error.what()};
     }
@@ -79,6 +82,13 @@ class TraceBuilder {
     if (found == trace_.interfaces.end()) trace_.interfaces.emplace_back(line.interface);
     const auto& f = line.frame;
     trace_.frames.push_back({f.time_ns, number, f.id, place, f.length, f.direction, f.data});
+  }
+
+  void take_number(std::string_view line, std::uint64_t number) {
+    auto& numbers = trace_.spreadsheet_numbers;
+    if (numbers.count++ > 0) return;
+    numbers.first_line = number;
+    numbers.first = shown(line);
   }
 
   void pass_over(std::string_view line, std::uint64_t number) {

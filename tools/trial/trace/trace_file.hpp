@@ -53,6 +53,7 @@ struct Trace {
   std::map<std::uint32_t, FdFrames> fd_by_id{};  // by identifier with the flags of linux/can.h
   BadLines losses{};                             // lines in which the recorder reports that it lost frames
   std::uint64_t frames_in_losses = 0;            // sum of the numbers in these lines
+  BadLines spreadsheet_numbers{};                // data that a spreadsheet turned into numbers
   TimeDigits digits{};
   std::uint64_t lost_by_recorder = 0;  // according to its own comments, "# 12 frames lost: …"
 };

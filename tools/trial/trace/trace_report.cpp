@@ -11,6 +11,7 @@
 #include "tools/trial/trace/speed_ratio.hpp"
 #include "tools/trial/trace/temperature.hpp"
 #include "tools/trial/trace/timing.hpp"
+#include "tools/trial/trace/torque_ratio.hpp"
 
 namespace sandhopper::trace {
 namespace {
@@ -77,6 +78,16 @@ Findings file_findings(const Trace& trace) {
                    fmt::format("{} lines are no frame; line {}: {}", trace.unreadable.count,
                                trace.unreadable.first_line, trace.unreadable.first),
                    "each may be a lost frame: see what wrote them", false});
+  if (trace.spreadsheet_numbers.count > 0)
+    out.push_back(
+        {"spreadsheet_numbers",
+         fmt::format("in {} lines a spreadsheet turned the data into a number, and digits are lost; "
+                     "line {}: \"{}\"",
+                     trace.spreadsheet_numbers.count, trace.spreadsheet_numbers.first_line,
+                     trace.spreadsheet_numbers.first),
+         "take the file from the recorder, not from the spreadsheet, or import its columns as text "
+         "there; replies without their data count as missing here",
+         false});
   if (trace.zero_bytes > 0)
     out.push_back(
         {"zero_bytes",
@@ -231,6 +242,7 @@ TraceReport examine_trace(Trace trace, const CanConfig& config, const TraceLimit
     append(report.findings, digits);
     return report;  // without right times nothing can be paired
   }
+  if (trace.spreadsheet_numbers.count > 0) return report;  // other findings would be its consequences
   append(report.findings, clock_findings(report.clock, trace, period_ns));
   if (report.clock.differences) return report;  // without times nothing can be paired
   append(report.findings, interface_findings(trace, roles));
@@ -241,6 +253,7 @@ TraceReport examine_trace(Trace trace, const CanConfig& config, const TraceLimit
   append(report.findings, position_jump_findings(report, config));
   append(report.findings, frozen_findings(report, config));
   append(report.findings, speed_findings(report, config));
+  append(report.findings, torque_findings(report, frames, roles, config));
   for (std::size_t m = 0; m < static_cast<std::size_t>(config.motor_count); ++m)
     append(report.findings,
            exchange_findings(report.motors[m], config.motor[m], roles.evidence[m], limits.replies));
