@@ -144,8 +144,8 @@ double smallest_step(const std::vector<double>& values) {
   return std::isfinite(smallest) ? smallest : 0.0;
 }
 
-// True if two smooth channels differ by more than their steps and the error of the line between two samples, 1/8
-// of the largest second difference. A zero of their own does not count. A command can be the same in two
+// True if two smooth channels differ by more than their steps and the error of the line between two samples,
+// 1/8 of the largest second difference. A zero of their own does not count. A command can be the same in two
 // recordings; what moved then differs.
 bool differs(const ChannelPart& a, const ChannelPart& b, double lag_s) {
   if (a.t_s.size() < 3 || b.t_s.size() < 3) return false;

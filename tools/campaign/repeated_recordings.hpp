@@ -25,9 +25,9 @@ struct Fingerprint {
 
 Fingerprint fingerprint_of(const TrialRecording& recording);
 
-// True if two recordings share their noise in every channel in which both show noise, and differ by no more than
-// their digits in the others: one is the other with other digits, fewer rows, a cut begin or end, another begin
-// of its clock or another zero.
+// True if two recordings share their noise in every channel in which both show noise, and differ by no more
+// than their digits in the others: one is the other with other digits, fewer rows, a cut begin or end,
+// another begin of its clock or another zero.
 bool have_one_noise(const Fingerprint& a, const Fingerprint& b);
 
 // Finds one recording that a campaign lists twice, also under another name or with another set-up. Noise
