@@ -33,8 +33,7 @@ std::string_view cure_for(CsvFault fault) {
       return "format the column as numbers before saving, or leave it out";
     case CsvFault::ambiguous_time:
       return "say which: [format] frames_per_s = 25 for so many in a second, clock = \"mm:ss\" or \"hh:mm\", "
-             "or "
-             "day_first = true or false, in campaign.toml";
+             "or day_first = true or false, in campaign.toml";
     case CsvFault::several_recordings:
       return "give each recording a [[trial]] with its lines, select = { from_line = 2, to_line = 41 }; a "
              "table "

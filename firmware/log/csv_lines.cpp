@@ -121,8 +121,7 @@ std::vector<std::string> encoding_in_words(TextEncoding encoding, const std::deq
     case TextEncoding::windows_1251:
       return {
           "the file is not UTF-8, and its words are of Cyrillic letters in Windows-1251: it is read as such; "
-          "if "
-          "its names are garbled save it as UTF-8"};
+          "if its names are garbled save it as UTF-8"};
     case TextEncoding::mac_roman:
       return {"the file is Mac Roman, not UTF-8, and is read as such"};
     case TextEncoding::windows_1252:
@@ -132,8 +131,7 @@ std::vector<std::string> encoding_in_words(TextEncoding encoding, const std::deq
   if (std::ranges::any_of(lines, has_words_beyond_ascii))
     said.emplace_back(
         "whole words of it are letters beyond ASCII, as in another code page (KOI8-R, CP866, GB18030): if "
-        "its names "
-        "are garbled save it as UTF-8, for example with iconv -f KOI8-R -t UTF-8 FILE > FILE.csv");
+        "its names are garbled save it as UTF-8, for example with iconv -f KOI8-R -t UTF-8 FILE > FILE.csv");
   return said;
 }
 

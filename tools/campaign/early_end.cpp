@@ -9,20 +9,34 @@
 
 namespace sandhopper {
 
+bool forces_outlast_depths(const TrialRecording& recording) {
+  const auto depth = recording.channel("foot_z_m"), force = recording.channel("force_N");
+  double before_s = NAN, longest_s = 0.0, after_s = 0.0;
+  for (std::size_t row = 0; row < depth.size(); ++row) {
+    const double since_s = recording.t_s[row] - before_s;
+    if (!std::isnan(depth[row])) {
+      longest_s = std::fmax(longest_s, since_s);
+      before_s = recording.t_s[row];
+      after_s = 0.0;
+    } else if (!std::isnan(force[row])) {
+      after_s = since_s;
+    }
+  }
+  return after_s > longest_s;
+}
+
 bool note_early_end(TrialRecording& recording, const RecordingPlaces& places) {
   if (!recording.has("foot_z_m") || !recording.has("force_N") || !recording.has_time) return false;
+  const auto is_missing = [](double value) { return std::isnan(value); };
   const auto depth = recording.channel("foot_z_m"), force = recording.channel("force_N");
-  std::size_t end = 0, last_force = 0;
-  double longest_s = 0.0;
-  for (; end < depth.size() && !std::isnan(depth[end]); ++end)
-    if (end > 0) longest_s = std::max(longest_s, recording.t_s[end] - recording.t_s[end - 1]);
-  for (std::size_t row = end; row < depth.size(); ++row) {
-    if (!std::isnan(depth[row])) return false;
-    if (!std::isnan(force[row])) last_force = row;
-  }
-  if (end < 2 || last_force < end || recording.t_s[last_force] - recording.t_s[end - 1] <= longest_s)
+  const auto first_missing = std::ranges::find_if(depth, is_missing);
+  const auto end = static_cast<std::size_t>(first_missing - depth.begin());
+  if (end < 2 || !std::all_of(first_missing, depth.end(), is_missing) || !forces_outlast_depths(recording))
     return false;
-  const double step_s = (recording.t_s[last_force] - recording.t_s.front()) / static_cast<double>(end - 1);
+  const auto last_force =
+      std::find_if_not(force.rbegin(), force.rend(), is_missing).base() - force.begin() - 1;
+  const double step_s = (recording.t_s[static_cast<std::size_t>(last_force)] - recording.t_s.front()) /
+                        static_cast<double>(end - 1);
   add_implausible(
       recording, places, FindingSeverity::note, "foot_z_m",
       fmt::format(

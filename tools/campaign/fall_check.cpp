@@ -126,10 +126,9 @@ class FallChecker {
   static std::string rising_cure(double speed_mps) {
     return fmt::format(
         "if it is thrown or shot up, write release_speed_mps = {:.3g} into its [[trial]]; if a motor drives "
-        "it (a "
-        "rocket), no plant describes that part: keep the rows after the motor has stopped, select = {{ "
-        "from_s = … }}, "
-        "with the speed there as release_speed_mps; else correct unit, scale or sign of the height",
+        "it (a rocket), no plant describes that part: keep the rows after the motor has stopped, select = "
+        "{{ from_s = … }}, with the speed there as release_speed_mps; else correct unit, scale or sign of "
+        "the height",
         speed_mps);
   }
 
@@ -205,8 +204,7 @@ class FallChecker {
         "; if it sinks, write the medium's density_kg_per_m3 and drag into nominal.toml; else correct unit "
         "or scale";
     add(fmt::format("takes {:.3g} s for {:.3g} m, and a body that is let go falls so far in {:.2g} s: {}, or "
-                    "the height or "
-                    "the time is in another unit",
+                    "the height or the time is in another unit",
                     took_s, width_, fall_s,
                     end > start
                         ? "it is lifted or driven upward, or it sinks slowly and its height counts downward"

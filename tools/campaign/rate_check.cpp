@@ -123,7 +123,8 @@ class RateChecker {
     return span;
   }
 
-  // Of the speed against the magnitude of the rate, over the steps of `span` rows that go in one direction.
+  // Slope of the speed against the magnitude of the rate, over the steps of `span` rows that go in one
+  // direction.
   std::optional<Slope> one_way_slope(std::span<const double> x, std::span<const double> v, std::size_t span,
                                      double sign) const {
     double dd = 0.0, dv = 0.0, vv = 0.0;

@@ -126,7 +126,7 @@ double mean_step_s(const ChannelPart& c) {
   return (c.t_s.back() - c.t_s.front()) / static_cast<double>(c.t_s.size() - 1);
 }
 
-// What the clock of `b` is behind that of `a`, if both share their noise.
+// Delay of the clock of `b` against that of `a`, if both share their noise.
 std::optional<double> lag_with_one_noise(const ChannelPart& a, const ChannelPart& b) {
   const bool is_finer = mean_step_s(b) <= mean_step_s(a) * (1.0 + 1e-9);
   for (const double lag_s : lags_of(a, b)) {
@@ -135,13 +135,6 @@ std::optional<double> lag_with_one_noise(const ChannelPart& a, const ChannelPart
       return lag_s;
   }
   return std::nullopt;
-}
-
-double smallest_step(const std::vector<double>& values) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (values[i] != values[i - 1]) smallest = std::min(smallest, std::abs(values[i] - values[i - 1]));
-  return std::isfinite(smallest) ? smallest : 0.0;
 }
 
 // True if two smooth channels differ by more than their steps and the error of the line between two samples,
@@ -160,7 +153,7 @@ bool differs(const ChannelPart& a, const ChannelPart& b, double lag_s) {
     bend = std::max(bend, std::abs(b.values[i + 1] - 2.0 * b.values[i] + b.values[i - 1]));
   const auto n = static_cast<double>(values.size());
   const double rms = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
-  return rms > smallest_step(a.values) + smallest_step(b.values) + bend / 8.0;
+  return rms > digit_of(a.values) + digit_of(b.values) + bend / 8.0;
 }
 
 const ChannelPart* part_of(const std::vector<ChannelPart>& parts, const std::string& name) {

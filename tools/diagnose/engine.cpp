@@ -136,8 +136,7 @@ void report_around(Problem& problem, const Recordings& recordings, const Recordi
 void report_too_little_time(const Problem& problem, const Search& search,
                             const std::vector<DataFault>& faults, Diagnosis& diagnosis) {
   diagnosis.verdict = Verdict::insufficient_time;
-  const auto& belief = search.null().fit.point;
-  report_residuals(problem, residuals_of(problem, belief, belief), diagnosis);
+  report_residuals(problem, residuals_of_belief(problem, search.null().fit.point), diagnosis);
   report_data_faults(faults, diagnosis);
 }
 

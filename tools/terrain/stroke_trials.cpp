@@ -9,6 +9,7 @@
 #include "estimation/motion_smoother.hpp"
 #include "terrain/joint_fit.hpp"
 #include "terrain/series_compliance.hpp"
+#include "tools/campaign/early_end.hpp"
 #include "tools/campaign/surface_check.hpp"
 #include "tools/experiment/statistics.hpp"
 #include "tools/terrain/strength_curve.hpp"
@@ -99,25 +100,9 @@ class Stroke {
     const auto to = static_cast<std::size_t>(last - depth.begin());
     for (std::size_t row = 0; row < force_N_.size(); ++row)
       if (row < from || row >= to) force_N_[row] = NAN;
-    if (ends_late(depth, force))
+    if (forces_outlast_depths(in_))
       out_.ruled_out.emplace_back(
           "force after the last recorded depth: foot_z_m ends before force_N, and no depth is assumed there");
-  }
-
-  // True if forces go on after the last depth for longer than any two depths are apart.
-  bool ends_late(std::span<const double> depth, std::span<const double> force) const {
-    double before_s = NAN, longest_s = 0.0, after_s = 0.0;
-    for (std::size_t row = 0; row < depth.size(); ++row) {
-      const double since_s = in_.t_s[row] - before_s;
-      if (!std::isnan(depth[row])) {
-        longest_s = std::fmax(longest_s, since_s);
-        before_s = in_.t_s[row];
-        after_s = 0.0;
-      } else if (!std::isnan(force[row])) {
-        after_s = since_s;
-      }
-    }
-    return after_s > longest_s;
   }
 
   // Subtracts the force sensor's reading in the air before the foot first meets the surface.

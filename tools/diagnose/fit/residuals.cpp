@@ -96,10 +96,17 @@ double held_out_gain(const Problem& problem, const Residuals& residuals, const P
   return gain;
 }
 
-Residuals residuals_of(const Problem& problem, const Point& null, const Point& point) {
+Residuals residuals_of_belief(const Problem& problem, const Point& null) {
   Residuals out;
   for (auto& trial : linearise_all(problem, null, {}, {.keep_plain = true}))
     out.before.emplace_back(trial.plain.col(0));
+  out.after = out.held_out = out.before;
+  return out;
+}
+
+Residuals residuals_of(const Problem& problem, const Point& null, const Point& point) {
+  Residuals out;
+  out.before = residuals_of_belief(problem, null).before;
 
   const auto directions = parameter_directions(problem, point);
   const auto k = static_cast<Index>(directions.size());

@@ -18,6 +18,9 @@ struct Residuals {
       change;  // [trial][effect of the best set]: change of the rows by that effect
 };
 
+// Residuals of the belief alone, for an answer without findings: `after` and `held_out` equal `before`.
+Residuals residuals_of_belief(const Problem& problem, const Point& null);
+
 // Residuals at `null` (as believed) and at `point`: the answer, perhaps with a law of free form.
 Residuals residuals_of(const Problem& problem, const Point& null, const Point& point);
 

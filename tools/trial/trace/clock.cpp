@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "tools/trial/trace/reply_steps.hpp"
 #include "tools/trial/trace/timing.hpp"
 
 namespace sandhopper::trace {
@@ -71,7 +72,6 @@ constexpr std::array<std::int64_t, 4> kWraps_ns{60'000'000'000, 65'536'000'000, 
 // less some periods, goes on without a pause.
 std::optional<std::int64_t> wrap_of(const ClockReport& report, std::int64_t period_ns) {
   if (report.steps_back.empty() || period_ns <= 0) return std::nullopt;
-  constexpr std::int64_t kLongestStep = 3;  // periods
   const auto found = std::ranges::find_if(kWraps_ns, [&](std::int64_t wrap_ns) {
     return std::ranges::all_of(report.steps_back, [&](const ClockEvent& step) {
       const std::int64_t goes_on_ns = step.change_ns + wrap_ns;

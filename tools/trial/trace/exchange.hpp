@@ -32,8 +32,8 @@ struct Exchange {
   bool begins_with_reply = false;  // one reply before the first command: the recording began in between
   std::uint64_t malformed = 0;     // replies with an invalid length
   std::uint64_t ambiguous = 0;     // frames that may be commands or replies
-  std::int64_t period_ns =
-      0;  // median (or, if that is 0, mean) time between commands; without them between replies
+  // Median time between commands, or the mean if that is 0; between replies if there are no commands.
+  std::int64_t period_ns = 0;
   double worst_share = 1.0;  // smallest answered share of 50 commands in a row
   Gap longest_gap{};
 };

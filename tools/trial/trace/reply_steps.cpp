@@ -5,6 +5,11 @@
 #include <numbers>
 
 namespace sandhopper::trace {
+namespace {
+
+constexpr double kStepsOf12Bits = 4095.0;
+
+}  // namespace
 
 std::vector<const TimedReading*> replies_of(const std::vector<TimedReading>& decoded, Side side) {
   std::vector<const TimedReading*> out;
@@ -13,15 +18,17 @@ std::vector<const TimedReading*> replies_of(const std::vector<TimedReading>& dec
   return out;
 }
 
+double torque_step_Nm(const CubeMarsConfig& motor) { return 2.0 * motor.torque_range_Nm / kStepsOf12Bits; }
+
 double position_step_rad(const CubeMarsConfig& motor) {
   constexpr double kSteps = 65535.0, kServoStep_rad = 0.1 * std::numbers::pi / 180.0;
   return motor.dialect == Dialect::mit ? 2.0 * motor.position_range_rad / kSteps : kServoStep_rad;
 }
 
 double velocity_step_radps(const CubeMarsConfig& motor) {
-  constexpr double kSteps = 4095.0, kErpmStep = 10.0, kRadpsPerRpm = std::numbers::pi / 30.0;
+  constexpr double kErpmStep = 10.0, kRadpsPerRpm = std::numbers::pi / 30.0;
   return motor.dialect == Dialect::mit
-             ? 2.0 * motor.velocity_range_radps / kSteps
+             ? 2.0 * motor.velocity_range_radps / kStepsOf12Bits
              : kErpmStep * kRadpsPerRpm / (motor.pole_pairs * motor.drive_reduction);
 }
 

@@ -23,9 +23,10 @@ inline constexpr double kDifferent = 0.1;
 // In the order of the times.
 std::vector<const TimedReading*> replies_of(const std::vector<TimedReading>& decoded, Side side);
 
-// Step of the position field and of the speed field, at the drive's output.
+// Steps of the reply's fields, at the drive's output.
 double position_step_rad(const CubeMarsConfig& motor);
 double velocity_step_radps(const CubeMarsConfig& motor);
+double torque_step_Nm(const CubeMarsConfig& motor);  // MIT dialect
 
 // Mean time between replies, without steps of the clock backward. An adapter that delivers in batches makes
 // the median too short.

@@ -16,11 +16,6 @@
 namespace sandhopper::trace {
 namespace {
 
-double torque_step_Nm(const CubeMarsConfig& motor) {
-  constexpr double kSteps = 4095.0;
-  return 2.0 * motor.torque_range_Nm / kSteps;
-}
-
 // Without right position and speed, the torque of the gains is unknown.
 bool has_right_state(const TraceReport& report, std::size_t m, const CubeMarsConfig& motor) {
   const auto side = static_cast<Side>(m);
@@ -117,8 +112,7 @@ Findings torque_findings(const TraceReport& report, const std::vector<Frame>& fr
          fmt::format(
              "the drive's commands and replies may have different full scales, or other gain ranges than "
              "kp_range_Nm_per_rad and kd_range_Nm_s_per_rad: likely its replies span {:.3g} Nm, robot.toml "
-             "has "
-             "torque_range_Nm = {:.4g}; compare motor type and ranges with its manual (hop config motor)",
+             "has torque_range_Nm = {:.4g}; compare motor type and ranges with its manual (hop config motor)",
              motor.torque_range_Nm / ratio->value, motor.torque_range_Nm),
          false});
   }
