@@ -164,11 +164,15 @@ void StrideRecorder::accumulate(const Estimate& e, double depth_m) noexcept {
   const bool settled = profile_.watch(sample);
   // While the foot rests or unloads, drift of the estimated depth can look like new depth. So require a
   // downward speed.
-  if (e.force_velocity_mps <= config_.min_speed_mps) return;
+  if (e.force_velocity_mps <= config_.min_speed_mps) {
+    rested_ = new_deepest_m_ > 0.0;
+    return;
+  }
   if (settled && depth_m > new_deepest_m_ && on_new_ground(sample)) {
     profile_.add(sample, e.quasi_static_force_N);
     deepest_force_N_ = sample.force_N - profile_.inertia_N(sample);
     new_deepest_m_ = depth_m;
+    rested_ = false;
   }
   if (depth_m <= deepest_m_) return;
   if (virgin) {
@@ -193,12 +197,15 @@ JointSample StrideRecorder::joint_sample(const Estimate& e, double depth_m,
 
 // Near the old crater the estimated depth does not show whether the ground is new. A force at least as large
 // as that at the crater's deepest point does. A test of the depth alone would select landings whose depth is
-// overestimated.
+// overestimated. A foot that came to rest and is loaded again moves in its own crater: the spring back by up
+// to a millimetre is less than the error of the estimated depth.
 bool StrideRecorder::on_new_ground(const JointSample& sample) const noexcept {
   constexpr double kDeviations = 2.0;
-  const double sure_m = crater_depth_m_ + kDeviations * config_.profile_or_default().landing_depth_sd_m;
-  return crater_depth_m_ == 0.0 || sample.depth_m > sure_m ||
-         sample.force_N - profile_.inertia_N(sample) >= crater_force_N_;
+  const double crater_m = rested_ ? new_deepest_m_ : crater_depth_m_;
+  const double crater_N = rested_ ? deepest_force_N_ : crater_force_N_;
+  const double sure_m = crater_m + kDeviations * config_.profile_or_default().landing_depth_sd_m;
+  return crater_m == 0.0 || sample.depth_m > sure_m ||
+         sample.force_N - profile_.inertia_N(sample) >= crater_N;
 }
 
 void StrideRecorder::restart_sums() noexcept {
@@ -211,6 +218,7 @@ void StrideRecorder::restart_sums() noexcept {
   joint_.reset();
   unloading_.reset();
   new_deepest_m_ = 0.0;
+  rested_ = false;
 }
 
 void StrideRecorder::commit() noexcept {

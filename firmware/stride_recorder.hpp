@@ -64,6 +64,7 @@ class StrideRecorder {
   double datum_m_ = 0.0;          // depth estimated by the filter at which the first stride met the surface
   double deepest_m_ = 0.0;        // of this and all earlier strides, below that datum
   double new_deepest_m_ = 0.0;    // of this stride on new ground; 0 before it reaches new ground
+  bool rested_ = false;           // since its last sample on new ground the foot stood still or moved up
   double crater_depth_m_ = 0.0;   // of earlier strides
   double deepest_force_N_ = 0.0;  // force without drag and added mass at the deepest point
   double crater_force_N_ = 0.0;   // the same for earlier strides

@@ -50,12 +50,14 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
   const double contact_m = solver.contact_depth(speed, regression.sums().contact_added_mass_kg_per_m).mean_m;
   Hop hop{.foot_mps = speed, .body_mps = speed};
   double deepest_m = 0.0;
+  bool lifted_off = false;
   for (int i = 1; i < kLongest_steps; ++i) {
     const double leg_m = hop.leg_m(robot.compression_length_m);
     hop.extends = hop.extends || (i > kFirst_steps && hop.leg_mps() >= 0.0);
     const double free_m = hop.extends ? robot.extension_length_m : robot.compression_length_m;
     const double stiffness = hop.extends ? robot.extension_stiffness_N_per_m : setup.leg_stiffness_N_per_m;
-    if (hop.extends && leg_m >= free_m) break;
+    lifted_off = hop.extends && leg_m >= free_m;
+    if (lifted_off) break;
     const double leg_N = std::clamp(stiffness * (free_m - leg_m), 0.0, robot.greatest_leg_force_N(leg_m));
     const auto curve = solver.force_N(std::min(hop.depth_m, kProfileDepth_m));
     const double virgin_N = std::max(curve.value + deviations * curve.sd, 0.0);
@@ -78,7 +80,7 @@ ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot,
     hop.depth_m += hop.foot_mps * kStep_s;
     hop.body_m += hop.body_mps * kStep_s;
   }
-  return regression.sums();
+  return lifted_off ? regression.sums() : ProfileSums{};
 }
 
 NextStride next_stride(const ProfileSolver& solver, const HopModel& robot,

@@ -12,8 +12,9 @@
 // comes to rest. Its predicted samples are added to a copy of the solver; the width of the band hardly
 // depends on their values. The ground below the present depth, and so the depth reached, is uncertain.
 // Therefore the expected width is the mean over strides on the mean curve and on the curve plus and minus
-// root 3 deviations of its band (Gauss-Hermite quadrature of three points). The next stride is assumed to be
-// on fresh ground prepared alike.
+// root 3 deviations of its band (Gauss-Hermite quadrature of three points). A stride is measured when the leg
+// has extended and the foot lifts off. With too little energy for it, on soft ground, the robot comes to rest
+// and the stride gives nothing. The next stride is assumed to be on fresh ground prepared alike.
 namespace sandhopper {
 
 struct HopModel {
@@ -53,7 +54,8 @@ struct NextStride {
 double widest_band_N(const ProfileSolver& solver, const DepthRange& range,
                      ProfileSolver::Band band = ProfileSolver::Band::whole) noexcept;
 
-// Sums that a stride with this set-up would give on the profile's mean plus `deviations` of its band.
+// Sums that a stride with this set-up would give on the profile's mean plus `deviations` of its band. Empty
+// if the robot would not lift off.
 ProfileSums predicted_stride(const ProfileSolver& solver, const HopModel& robot, const StrideSetup& setup,
                              double deviations = 0.0);
 

@@ -320,7 +320,8 @@ void ProfileSolver::add(const ProfileSums& sums, std::uint32_t stride) noexcept 
   if (stride == 1) restart();
   reloading_.add(sums.unloading, sums.reduced_mass_kg);
   take_line(sums);
-  if (sums.samples == 0 && stride > 1) {  // without new ground the estimate stays
+  // Without new ground the estimate stays. A place without samples is no part of the mean over the places.
+  if (sums.samples == 0 && (stride > 1 || places_ > 0)) {
     report(sums, stride);
     return;
   }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "firmware/hop_model.hpp"
@@ -62,6 +64,39 @@ TEST(NextStride, ExpectsLessFromANewPlaceIfPlacesDiffer) {
   const double alike = expected(places_alike()), different = expected({});
   EXPECT_GT(different, 1.1 * alike);
   EXPECT_LT(different, 0.95);
+}
+
+ProfileSolver on_soft_ground() {
+  ProfileSolver solver{StiffnessConfig{}};
+  const auto curve_N = [](double z) { return 0.6 * line_N(z); };
+  solver.add(sums_of(curve_N, {.speed_mps = 1.2, .to_m = 0.060}), 1);
+  return solver;
+}
+
+// On soft ground the leg's push goes into the ground. The robot comes to rest and the stride is not measured.
+TEST(NextStride, ExpectsNothingFromASetUpThatDoesNotLiftOff) {
+  const auto robot = hop_model_of({});
+  const auto solver = on_soft_ground();
+  const StrideSetup weak{0.0125, 500.0}, strong{0.0890, 375.0};
+  EXPECT_EQ(predicted_stride(solver, robot, weak).samples, 0u);
+  EXPECT_GT(predicted_stride(solver, robot, strong).samples, 0u);
+  const std::array both{weak, strong};
+  const auto next = next_stride(solver, robot, both);
+  EXPECT_EQ(next.setup.drop_height_m, strong.drop_height_m);
+  const auto only_weak = next_stride(solver, robot, std::span(both).first(1));
+  EXPECT_EQ(only_weak.reach_m, 0.0);
+  EXPECT_DOUBLE_EQ(only_weak.widest_expected_N, only_weak.widest_now_N);
+}
+
+// A mean over places to which a place without samples belonged would be less known.
+TEST(NextStride, AStrideWithoutSamplesIsNoPlace) {
+  auto solver = on_soft_ground();
+  solver.add(sums_of(line_N, {.to_m = 0.050}), ProfileSolver::kFreshGround);
+  const auto before = solver.profile();
+  solver.add({}, ProfileSolver::kFreshGround);
+  EXPECT_EQ(solver.profile().force_N, before.force_N);
+  EXPECT_EQ(solver.profile().force_sd_N, before.force_sd_N);
+  EXPECT_EQ(solver.profile().stride, before.stride + 1);
 }
 
 // A step of 20 N over 1.25 mm is no curve on cells of 2.5 mm. A predicted stride fits it, a real one does

@@ -170,7 +170,7 @@ class PushedFoot {
     e.force_depth_m = depth_m;
     e.force_velocity_mps = speed_mps;
     e.force_time_ns = now_ns_;
-    e.direct_force_N = 5.0 + 1500.0 * depth_m;
+    e.direct_force_N = 5.0 + 1500.0 * depth_m - unloaded_N;
     recorder.update(e, state);
   }
   void touch_down() { recorder.on_touchdown(now_ns_); }
@@ -178,6 +178,7 @@ class PushedFoot {
 
   StrideRecorder recorder{{}, {kRadius_m, kReducedMass_kg}};
   double depth_m = 0.0;
+  double unloaded_N = 0.0;  // force that is missing while the foot is in its own crater
 
  private:
   std::int64_t now_ns_ = 0;
@@ -197,6 +198,29 @@ TEST(StrideRecorder, DriftOfAFootAtRestIsNoNewDepth) {
   foot.touch_down();
   foot.lift_off();
   EXPECT_NEAR(foot.recorder.sums().summary.crater_depth_m, 0.020, 3e-4);
+}
+
+// The leg's push grows again after the impact, and the estimated speed is slightly too large.
+TEST(StrideRecorder, AFootThatRestedIsOnNewGroundWhenItsForceIsThatOfTheDeepestPoint) {
+  PushedFoot foot;
+  foot.move(0.2, State::flight);
+  foot.touch_down();
+  while (foot.depth_m < 0.020) foot.move(0.2, State::compression);
+  foot.move(0.0, State::compression);
+  const double deepest_m = foot.recorder.new_ground_m();
+  foot.unloaded_N = 20.0;
+  while (foot.depth_m < 0.021) foot.move(0.04, State::compression);
+  EXPECT_EQ(foot.recorder.new_ground_m(), deepest_m);
+  foot.unloaded_N = 0.0;
+  foot.move(0.04, State::compression);
+  const double reloaded_m = foot.recorder.new_ground_m();
+  EXPECT_GT(reloaded_m, deepest_m);
+  // Then the force may become smaller with depth, as below a crust.
+  foot.unloaded_N = 20.0;
+  foot.move(0.04, State::compression);
+  EXPECT_GT(foot.recorder.new_ground_m(), reloaded_m);
+  foot.lift_off();
+  EXPECT_GT(foot.recorder.sums().profile.samples, 0);
 }
 
 // The leg can touch down again before its foot has left a deep crater.
