@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "tools/diagnose/evidence/bagged.hpp"
 #include "tools/diagnose/evidence/form_error.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/evidence/search_parts.hpp"
@@ -59,25 +60,29 @@ double log_mass_of(const Problem& problem, const SetFit& fit, const LogEvidence&
 }  // namespace
 
 void name_likeliest(Problem& problem, Search& search, std::vector<std::string>& log) {
-  if (search.best().set.size() != 1 || laws_of(problem, search.best().fit.point.hypothesis).empty()) return;
+  const auto is_law = [&](const SetFit* fit) { return !laws_of(problem, fit->fit.point.hypothesis).empty(); };
+  if (search.best().set.size() != 1 || !is_law(&search.best())) return;
   problem.repeatable_error = {};
+  const std::string before = set_text(problem, search.best().set);
+  auto fits = nearest(search, 1);
+  std::erase_if(fits, [&](const SetFit* fit) { return !is_law(fit); });
+  const auto masses = bagged_masses(problem, fits);
   std::vector<std::pair<double, const SetFit*>> order;
   double of_best = 0.0;
-  for (const SetFit* fit : nearest(search, 1)) {
-    if (laws_of(problem, fit->fit.point.hypothesis).empty()) continue;
-    order.emplace_back(log_mass_of(problem, *fit, evidence_of(problem, *fit)), fit);
-    if (fit == &search.best()) of_best = order.back().first;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    order.emplace_back(masses[i], fits[i]);
+    if (fits[i] == &search.best()) of_best = masses[i];
   }
   std::ranges::sort(order, std::greater<>{}, [](const auto& one) { return one.first; });
-  const std::string before = set_text(problem, search.best().set);
-  const double apart = std::log(kLimits.exchangeable);
-  for (const auto& [log_mass, fit] : order) {
-    if (!(log_mass > of_best + apart)) return;
+  for (const auto& [mass, fit] : order) {
+    if (can_be_exchanged(of_best / mass)) return;
     if (!search.name(fit->set)) continue;
-    for (const auto& [other_mass, other] : order)
-      if (other_mass < log_mass - apart) search.refuse(other->set);
-    log.push_back(fmt::format("{} is more probable than {}: ln {:.1f}", set_text(problem, fit->set), before,
-                              log_mass - of_best));
+    // Laws that fit as well stay in question: between them only the widths of priors decide.
+    for (const auto& [other, rival] : order)
+      if (!can_be_exchanged(other / mass) && std::abs(rival->fit.deviance - fit->fit.deviance) > kWorthAFit)
+        search.refuse(rival->set);
+    log.push_back(fmt::format("{} is more probable than {}: {:.3g} and {:.3g}", set_text(problem, fit->set),
+                              before, mass, of_best));
     return;
   }
 }
@@ -108,32 +113,32 @@ void limit_by_evidence(Problem& problem, const Search& search, Posterior& belief
   });
   if (close.empty()) return;
   close.push_back(&search.best());
-  problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
-  std::vector<double> log_mass;
-  for (const SetFit* fit : close) log_mass.push_back(log_mass_of(problem, *fit, evidence_of(problem, *fit)));
   problem.repeatable_error = {};
-  const double most = *std::ranges::max_element(log_mass);
+  const auto masses = bagged_masses(problem, close);
   for (auto& [candidate, mass] : belief.mass) {
     std::vector<std::size_t> names{candidate};
     if (const auto others = belief.alternatives.find(candidate); others != belief.alternatives.end())
       names.insert(names.end(), others->second.begin(), others->second.end());
-    double with = 0.0, total = 0.0;
-    for (std::size_t i = 0; i < close.size(); ++i) {
-      const double one = std::exp(log_mass[i] - most);
-      total += one;
-      if (std::ranges::find_first_of(close[i]->set, names) != close[i]->set.end()) with += one;
-    }
-    if (with / total >= mass) continue;
+    double with = 0.0;
+    for (std::size_t i = 0; i < close.size(); ++i)
+      if (std::ranges::find_first_of(close[i]->set, names) != close[i]->set.end()) with += masses[i];
+    if (with >= mass) continue;
     log.push_back(fmt::format("evidence limits {} from {:.3f} to {:.3f}",
-                              problem.candidates[candidate].label(), mass, with / total));
-    mass = with / total;
+                              problem.candidates[candidate].label(), mass, with));
+    mass = with;
   }
 }
 
 void tell_evidence(Problem& problem, const Search& search, std::vector<std::string>& log) {
+  const auto sets = nearest(search, kAnySize);
+  problem.repeatable_error = {};
+  const auto bagged = bagged_masses(problem, sets);
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    log.push_back(
+        fmt::format("resampled trials: mass {:.3f} {}", bagged[i], set_text(problem, sets[i]->set)));
   problem.repeatable_error = repeatable_error(problem, signatures_at(problem, search.null().fit.point));
   std::vector<WeighedAnswer> all;
-  for (const SetFit* fit : nearest(search, kAnySize)) {
+  for (const SetFit* fit : sets) {
     const auto evidence = evidence_of(problem, *fit);
     const double log_mass = log_mass_of(problem, *fit, evidence);
     all.push_back({set_text(problem, fit->set), log_mass});

@@ -74,7 +74,7 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
     for (const auto& trial : linear) {
       auto without = without_forms(trial.gram, shared, of_form, information);
       formed.grams.push_back(std::move(without.gram));
-      formed.log_determinant += without.log_determinant + trial.log_determinant;
+      formed.log_determinants.push_back(without.log_determinant + trial.log_determinant);
     }
   }
   return out;
@@ -100,19 +100,21 @@ constexpr double kBarely = 1e-4;
 // Prior information that holds a repeatable error at zero if its effect is in the set.
 constexpr double kNamed = 1e12;
 
-// `times`: ratio of each group of repeatable errors in this campaign to its learnt scale.
+// `weights`: number of times that each trial counts. `times`: ratio of each group of repeatable errors in
+// this campaign to its learnt scale.
 Quadratic quadratic_at(const Problem& problem, const Point& point, const std::vector<MatrixXd>& grams,
-                       const std::vector<double>& times) {
+                       const VectorXd& weights, const std::vector<double>& times) {
   const Hypothesis& h = point.hypothesis;
   const auto parameters = static_cast<Index>(h.parameters());
   const auto tolerances = static_cast<Index>(point.tolerances.size());
   const auto errors = static_cast<Index>(problem.repeatable_error.size());
   const Index k = parameters + tolerances + errors;
   Quadratic q{MatrixXd::Zero(k, k), VectorXd::Zero(k), VectorXd::Zero(k)};
-  for (const auto& gram : grams) {
-    q.information += gram.block(1, 1, k, k);
-    q.score += gram.col(0).segment(1, k);
-    q.deviance += gram(0, 0);
+  for (std::size_t t = 0; t < grams.size(); ++t) {
+    const double weight = weights[static_cast<Index>(t)];
+    q.information += weight * grams[t].block(1, 1, k, k);
+    q.score += weight * grams[t].col(0).segment(1, k);
+    q.deviance += weight * grams[t](0, 0);
   }
   Index i = 0;
   for (std::size_t e = 0; e < h.candidates.size(); ++e) {
@@ -173,8 +175,9 @@ std::size_t groups_of(const Problem& problem) {
 std::vector<double> likeliest_times(const Problem& problem, const Point& point,
                                     const std::vector<MatrixXd>& grams) {
   std::vector<double> times(groups_of(problem), 1.0);
+  const VectorXd once = VectorXd::Ones(static_cast<Index>(grams.size()));
   const auto value = [&](const std::vector<double>& t) {
-    return value_of(quadratic_at(problem, point, grams, t)) + log_hyperprior(t);
+    return value_of(quadratic_at(problem, point, grams, once, t)) + log_hyperprior(t);
   };
   double most = value(times);
   for (double& one : times) {
@@ -192,22 +195,28 @@ std::vector<double> likeliest_times(const Problem& problem, const Point& point,
   return times;
 }
 
-// The evidence with one share of the form errors.
-LogEvidence log_evidence_of(const Problem& problem, const Fit& fit,
-                            const std::vector<MatrixXd>& without_forms, const AtFit::Formed& at) {
+// Deviance of each trial at the fit beyond that of the quadratic there. The fit has the least deviance that
+// the simulation reaches, so the linear approximation only counts for what form errors and larger repeatable
+// errors change; what it promises beyond that is shared by all trials.
+VectorXd beyond_quadratic(const Problem& problem, const Fit& fit, const std::vector<MatrixXd>& plain) {
+  const auto trials = static_cast<Index>(plain.size());
+  const Quadratic q = quadratic_at(problem, fit.point, plain, VectorXd::Ones(trials),
+                                   std::vector<double>(groups_of(problem), 1.0));
+  VectorXd off = VectorXd::Constant(trials, (q.deviance - q.least()) / static_cast<double>(trials));
+  for (Index t = 0; t < trials; ++t) {
+    const auto at = static_cast<std::size_t>(t);
+    off[t] += fit.trial_deviance[at] - plain[at](0, 0);
+  }
+  return off;
+}
+
+// The log evidence with one share of the form errors. `off`: of beyond_quadratic.
+double log_evidence_of(const Problem& problem, const Fit& fit, const VectorXd& off, const AtFit::Formed& at,
+                       const VectorXd& weights, const std::vector<double>& times) {
   const Hypothesis& h = fit.point.hypothesis;
-  LogEvidence out;
-  out.times = likeliest_times(problem, fit.point, at.grams);
-  const Quadratic q = quadratic_at(problem, fit.point, at.grams, out.times);
-  const Quadratic plain =
-      quadratic_at(problem, fit.point, without_forms, std::vector<double>(out.times.size(), 1.0));
-  // The fit has the least deviance that the simulation reaches. Take the deviance from the fit, and only its
-  // change by form errors and larger repeatable errors from the linear approximation.
-  double off = 0.0;
-  for (std::size_t t = 0; t < without_forms.size(); ++t)
-    off += fit.trial_deviance[t] - without_forms[t](0, 0);
-  off += plain.deviance - plain.least();
-  out.value = value_of(q) - 0.5 * off + log_hyperprior(out.times) - 0.5 * at.log_determinant;
+  const Quadratic q = quadratic_at(problem, fit.point, at.grams, weights, times);
+  const Eigen::Map<const VectorXd> determinants(at.log_determinants.data(), weights.size());
+  double value = value_of(q) + log_hyperprior(times) - 0.5 * weights.dot(off + determinants);
   const Index k = q.score.size();
   const MatrixXd covariance = q.information.ldlt().solve(MatrixXd::Identity(k, k));
   const VectorXd step = covariance * q.score;
@@ -217,27 +226,55 @@ LogEvidence log_evidence_of(const Problem& problem, const Fit& fit,
     const double sd = std::sqrt(std::max(covariance(first, first), 1e-300));
     // The determinant stands for a flat prior: its integral is sqrt(2 pi) sd. Replace that by the integral
     // over the prior of the size.
-    out.value += log_integral_over_size(h.values[e][0] / p[0].typical + step[first], sd, p[0].low < 0.0) -
-                 std::log(sd);
+    value += log_integral_over_size(h.values[e][0] / p[0].typical + step[first], sd, p[0].low < 0.0) -
+             std::log(sd);
     first += static_cast<Index>(p.size());
   }
-  return out;
+  return value;
+}
+
+double log_mean(const std::vector<double>& values) {
+  const double most = *std::ranges::max_element(values);
+  double sum = 0.0;
+  for (const double value : values) sum += std::exp(value - most);
+  return most + std::log(sum / static_cast<double>(values.size()));
 }
 
 }  // namespace
 
 std::vector<LogEvidence> log_evidence_by_form(const Problem& problem, const Fit& fit, const AtFit& at) {
+  const VectorXd off = beyond_quadratic(problem, fit, at.plain);
+  const VectorXd once = VectorXd::Ones(off.size());
   std::vector<LogEvidence> all;
-  for (const auto& formed : at.formed) all.push_back(log_evidence_of(problem, fit, at.plain, formed));
+  for (const auto& formed : at.formed) {
+    auto times = likeliest_times(problem, fit.point, formed.grams);
+    const double value = log_evidence_of(problem, fit, off, formed, once, times);
+    all.push_back({value, std::move(times)});
+  }
   return all;
 }
 
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at) {
   const auto all = log_evidence_by_form(problem, fit, at);
   LogEvidence out = *std::ranges::max_element(all, {}, &LogEvidence::value);
-  double mean = 0.0;
-  for (const auto& one : all) mean += std::exp(one.value - out.value) / static_cast<double>(all.size());
-  out.value += std::log(mean);
+  std::vector<double> values;
+  for (const auto& one : all) values.push_back(one.value);
+  out.value = log_mean(values);
+  return out;
+}
+
+std::vector<double> weighted_log_evidence(const Problem& problem, const Fit& fit, const AtFit& at,
+                                          const MatrixXd& weights) {
+  const VectorXd off = beyond_quadratic(problem, fit, at.plain);
+  std::vector<std::vector<double>> by_form(static_cast<std::size_t>(weights.cols()));
+  for (const auto& formed : at.formed) {
+    const auto times = likeliest_times(problem, fit.point, formed.grams);
+    for (Index i = 0; i < weights.cols(); ++i)
+      by_form[static_cast<std::size_t>(i)].push_back(
+          log_evidence_of(problem, fit, off, formed, weights.col(i), times));
+  }
+  std::vector<double> out;
+  for (const auto& values : by_form) out.push_back(log_mean(values));
   return out;
 }
 

@@ -27,7 +27,7 @@ struct AtFit {
   // With the form error of every law eliminated.
   struct Formed {
     std::vector<Eigen::MatrixXd> grams;
-    double log_determinant = 0.0;  // sum_t (ln|I + C_t F_t| + ln|I + S_t Z_t'Z_t|)
+    std::vector<double> log_determinants;  // ln|I + C_t F_t| + ln|I + S_t Z_t'Z_t| of each trial
   };
   std::vector<Formed> formed;          // One for each of `form_shares`; only one if there is no law.
   std::vector<Eigen::MatrixXd> plain;  // Without form errors.
@@ -37,7 +37,11 @@ AtFit linearised_at(const Problem& problem, const Point& point, const std::vecto
 
 // Log evidence of a fit; `at`: linearised at its point.
 LogEvidence log_evidence(const Problem& problem, const Fit& fit, const AtFit& at);
-// The same for each of the form errors by itself.
+// The same with each trial counted so many times, for several such weightings (columns of `weights`, one row
+// for each trial). The ratios of the repeatable model errors stay those of equal weights.
+std::vector<double> weighted_log_evidence(const Problem& problem, const Fit& fit, const AtFit& at,
+                                          const Eigen::MatrixXd& weights);
+// The log evidence for each of the form errors by itself.
 std::vector<LogEvidence> log_evidence_by_form(const Problem& problem, const Fit& fit, const AtFit& at);
 
 // Log prior of a set: the listed effects are equally probable, Limits::effects_expected of them are expected
