@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <random>
@@ -244,6 +245,32 @@ TEST(CalibrateTiming, AForeignClockThatStepsIsRefusedWithItsStep) {
       const auto& text = outcome.refusals.front().text;
       EXPECT_NEAR(std::stod(text.substr(text.find(" by ") + 4)), std::abs(step_s), 0.002) << text;
     }
+}
+
+// A clock that is slewed by 500 ppm, as adjtime does, from the middle of the taps on.
+TEST(CalibrateTiming, AnUnevenForeignClockWidensItsInterval) {
+  using ::testing::HasSubstr;
+  const auto recording = tap(1);
+  auto foreign = foreign_of({1000.0, 3.2174, 5e-5, 1, 1e-9 * static_cast<double>(recording.begin_ns)});
+  const auto even = fit(recording, foreign);
+  EXPECT_THAT(fmt::format("{}", fmt::join(even.outcome.notes, "\n")),
+              ::testing::Not(HasSubstr("run evenly")));
+  const double begin_s = foreign.signal.time_s.front(),
+               middle_s = 0.5 * (begin_s + foreign.signal.time_s.back());
+  std::vector<double> moved_s;
+  for (auto& t : foreign.signal.time_s) {
+    moved_s.push_back(5e-4 * std::max(0.0, t - middle_s));
+    t += moved_s.back();
+  }
+  const auto found = fit(recording, foreign);
+  EXPECT_THAT(fmt::format("{}", fmt::join(found.outcome.notes, "\n")), HasSubstr("does not run evenly"));
+  ASSERT_TRUE(even.clock && found.clock);
+  EXPECT_GT(found.clock->ci95_s, 3.0 * even.clock->ci95_s);
+  // The error of the middle of the taps, where half of the slew lies behind.
+  const double at_s = found.clock->middle_s;
+  const double truth = even.clock->offset_s + even.clock->drift * (at_s - even.clock->middle_s) -
+                       5e-4 * std::max(0.0, at_s - middle_s);
+  EXPECT_LT(std::abs(found.clock->offset_s - truth), found.clock->ci95_s);
 }
 
 // A recorder that lost 0.2 s of rows, with the second tap, and counts its time from the rows.

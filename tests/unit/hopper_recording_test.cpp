@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "campaign_folder.hpp"
+#include "tools/campaign/mass_below_cell.hpp"
 #include "tools/terrain/measured_stride.hpp"
 #include "tools/trial/campaign_maker.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct HopTable {
   std::vector<std::string> names;
@@ -196,6 +198,90 @@ TEST(HopperRecording, AFootHeightWithAnotherZeroGetsItsOffset) {
     EXPECT_THAT(text, AllOf(HasSubstr("when the load cell first carries load"),
                             HasSubstr(by_m > 0.0 ? "offset = -0.29" : "offset = 0.30")));
   }
+}
+
+TEST(HopperRecording, AnInvertedFlagOfStanceGetsItsLine) {
+  auto inverted = hop().change("phase", [](double value) {
+    return std::isnan(value) ? NAN : value > 0.0 ? 0.0 : 1.0;
+  });
+  EXPECT_THAT(doubts(inverted), AllOf(HasSubstr("the flag is inverted"),
+                                      HasSubstr("phase = { column = \"phase\", scale = -1, offset = 1 }"),
+                                      Not(HasSubstr("motor_left_current_A"))));
+  EXPECT_EQ(doubts(inverted, "", "[columns]\nphase = { column = \"phase\", scale = -1, offset = 1 }\n"), "")
+      << "the line of the message is the cure";
+  inverted.names[inverted.column(kCell)] = "unused";
+  EXPECT_THAT(doubts(inverted), HasSubstr("the flag is inverted"))
+      << "the body's accelerometer shows it, too";
+}
+
+TEST(HopperRecording, SpecificForcesWithoutGravityGetTheirOffset) {
+  for (const std::string channel : {"imu_body_accel_z_mps2", "imu_foot_accel_z_mps2"}) {
+    const auto without = hop().change(channel, [](double value) { return value - 9.81; });
+    EXPECT_THAT(doubts(without), AllOf(HasSubstr("gravity was subtracted"), HasSubstr("offset = 9.81 }")));
+    EXPECT_EQ(
+        doubts(without, "",
+               fmt::format("[columns]\n{0} = {{ column = \"{0}\", unit = \"m/s^2\", scale = 1, offset = 9.81 "
+                           "}}\n",
+                           channel)),
+        "")
+        << channel;
+  }
+}
+
+TEST(HopperRecording, HeightsOnALateClockAreNamedWithTheirDelay) {
+  const auto late = hop().delay("mocap_body_z_m", 30).delay("mocap_foot_z_m", 30);
+  EXPECT_THAT(doubts(late), AllOf(HasSubstr("0.030 s later"), HasSubstr("by 30 rows towards earlier rows")));
+  EXPECT_EQ(doubts(hop().delay("mocap_body_z_m", 5).delay("mocap_foot_z_m", 5)), "")
+      << "less than 1/20 of a stance";
+}
+
+// A cell above a mass, tared at rest.
+HopTable with_mass_below_cell(double mass_kg) {
+  auto table = hop();
+  const auto cell = table.column(kCell), accel = table.column("imu_foot_accel_z_mps2");
+  double last = 9.81;
+  for (auto& row : table.rows) {
+    if (!std::isnan(row[accel])) last = row[accel];
+    row[cell] -= mass_kg * (last - 9.81);
+  }
+  return table;
+}
+
+std::string notes(const HopTable& table, const std::string& nominal = "") {
+  std::string text;
+  for (const auto& finding : loaded(table, nominal).second.findings) text += to_string(finding) + "\n";
+  return text;
+}
+
+TEST(HopperRecording, AMassBelowTheCellIsNotedAndTakenOut) {
+  const auto heavy = with_mass_below_cell(0.3);
+  const auto text = notes(heavy);
+  const auto at = text.find("mass_kg = ");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_NEAR(std::stod(text.substr(at + 10)), 0.3, 0.03);
+  EXPECT_THAT(notes(hop()), Not(HasSubstr("hang below the cell")));
+  const std::string stated = "[effects]\n\"load_cell.inertia[load_cell_force_N]\" = { mass_kg = 0.3 }\n";
+  EXPECT_THAT(notes(heavy, stated), Not(HasSubstr("hang below the cell")));
+  auto [campaign, recording] = loaded(heavy, stated);
+  const auto sound = loaded(hop()).second;
+  const auto apart_N = [&] {
+    double sum = 0.0;
+    const auto a = recording.channel(kCell), b = sound.channel(kCell);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (!std::isnan(a[i])) sum += std::abs(a[i] - b[i]);
+    return sum / static_cast<double>(a.size());
+  };
+  const double before_N = apart_N();
+  add_mass_below_cell(recording, campaign.trials.at(0).belief);
+  EXPECT_LT(apart_N(), 0.1 * before_N);
+}
+
+TEST(HopperRecording, EffectiveCurrentsAreNoted) {
+  auto rms = hop();
+  for (const char* side : {"left", "right"})
+    rms.change(fmt::format("motor_{}_current_A", side), [](double value) { return value / std::sqrt(2.0); });
+  EXPECT_THAT(notes(rms), AllOf(HasSubstr("effective (rms)"), HasSubstr("scale = 1.414 for both")));
+  EXPECT_THAT(notes(hop()), Not(HasSubstr("times the force of the load cell")));
 }
 
 TEST(HopperRecording, OtherPhysicsIsNotDoubted) {

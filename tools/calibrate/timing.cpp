@@ -86,7 +86,8 @@ Delays delays_of(const Series& reference, const Series& other, const std::vector
         {"residual_too_large",
          fmt::format("{}: {} of {} taps do not look as in the reference, or lie more than {} ms apart", name,
                      strange, taps.size(), 1e3 * kSearch_s),
-         "tap where both sensors feel the same; take only the recording's part with the taps"});
+         "tap where both sensors feel the same; take only the recording's part with the taps; switch off "
+         "what rounds a tap, as a mean over several samples or a filter"});
   return out;
 }
 
@@ -223,7 +224,16 @@ void calibrate_clock(const Series& reference, const std::vector<double>& taps, c
   std::vector<double> centred = theirs;
   for (auto& t : centred) t -= mean.value;
   const auto line = fit_line(centred, offsets, 1e-7);
-  const double ci95 = std::hypot(line.intercept_ci95, kInterpolation_s);
+  // A clock that is slewed (adjtime) runs at more than one rate, and one line is off by its residuals.
+  const auto bend = curvature(centred, offsets);
+  const bool bends = bend && std::abs(bend->t) > bend->t95 && line.largest_residual > kInterpolation_s;
+  const double uneven_s = bends ? line.largest_residual : 0.0;
+  const double ci95 = std::hypot(line.intercept_ci95, kInterpolation_s, uneven_s);
+  if (bends)
+    out.notes.push_back(
+        fmt::format("{}: its clock does not run evenly: taps lie up to {:.3f} ms off one line, which "
+                    "is in the interval; stop time synchronisation on that computer while it records",
+                    foreign.name, 1e3 * uneven_s));
   clock = ForeignClock{line.intercept, ci95, line.slope, mean.value};
   Delays residuals{common, line.residual};
   out.sections.front().items.emplace_back(figure_of(residuals, TrialMean{}, foreign.name));

@@ -12,6 +12,8 @@
 
 #include "tools/campaign/column_rivals.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/signal_noise.hpp"
+#include "tools/campaign/trial_rows.hpp"
 
 namespace sandhopper {
 namespace {
@@ -20,6 +22,7 @@ constexpr std::size_t kSide = 4;  // rows on each side of a gap that give a spee
 // In rows. In a shorter gap one row's motion and that of the lost rows differ too little beside noise.
 constexpr double kLongGap = 10.0;
 constexpr double kDrift = 0.01;   // share of the time; see the header
+constexpr double kOfNoise = 5.0;  // standard deviations by which a motion is clear
 constexpr double kGrowing = 0.9;  // share of rows; a column that rests more often is too coarse to be a time
 
 // Steps of a channel around row `at`: the mean of a row before and after it, and the one across.
@@ -52,6 +55,62 @@ bool goes_on(const Crossing& c) {
   return even && std::abs(c.across - step) < 0.5 * std::abs(step);
 }
 
+// Long steps of the time across which a position goes on as from row to row, and all long steps at which it
+// moves.
+struct TimeBursts {
+  std::size_t even = 0, all = 0, first_row = 0;
+  double longest_s = 0.0;
+};
+
+TimeBursts time_bursts(const TrialRecording& recording, std::span<const double> position) {
+  const auto& t = recording.t_s;
+  const double long_s = kLongestStep * median_step_s(t);
+  const double clear = kOfNoise * noise_of_bends(position);
+  TimeBursts bursts;
+  for (std::size_t at = 2; at + 1 < t.size(); ++at) {
+    const double gap_s = t[at] - t[at - 1];
+    const double before = position[at - 1] - position[at - 2], after = position[at + 1] - position[at];
+    const double usual = 0.5 * (before + after), across = position[at] - position[at - 1];
+    if (gap_s <= long_s || std::isnan(usual + across) || !(std::abs(usual) > clear)) continue;
+    ++bursts.all;
+    if (std::abs(across - usual) >= 0.5 * std::abs(usual)) continue;
+    if (bursts.even++ == 0) bursts.first_row = at;
+    bursts.longest_s = std::max(bursts.longest_s, gap_s);
+  }
+  return bursts;
+}
+
+// Seconds from row to row, by least squares of the times over the row's number.
+double mean_row_s(const std::vector<double>& t_s) {
+  const auto n = static_cast<double>(t_s.size());
+  double st = 0.0, sit = 0.0;
+  for (std::size_t i = 0; i < t_s.size(); ++i) st += t_s[i], sit += static_cast<double>(i) * t_s[i];
+  return 12.0 * (sit - 0.5 * (n - 1.0) * st) / (n * (n * n - 1.0));
+}
+
+// Rows that were sampled evenly and got the times at which they arrived, many at once. True if it is noted.
+bool doubt_bursts(TrialRecording& recording, const RecordingPlaces& places, std::string_view channel) {
+  constexpr std::size_t kFewest = 3;  // one or two may be a stop
+  constexpr double kNearlyAll = 0.9;  // of the long steps
+  const auto bursts = time_bursts(recording, recording.channel(channel));
+  if (bursts.even < kFewest ||
+      static_cast<double>(bursts.even) < kNearlyAll * static_cast<double>(bursts.all))
+    return false;
+  const double row_s = mean_row_s(recording.t_s);
+  doubt_column(
+      recording, places, places.is_stated("t_s"), "t_s",
+      fmt::format(
+          "stands nearly still and then grows by up to {:.3g} s, {} times, first in line {}, but {} goes on "
+          "there as from row to row: the rows came evenly and have the times at which they arrived in "
+          "bursts",
+          bursts.longest_s, bursts.even, places.line_of(bursts.first_row), channel),
+      fmt::format(
+          "take t_s out of [columns] and write [format] row_every_s = {:.6g}, the mean step; better, export "
+          "the sensor's own times",
+          row_s));
+  return true;
+}
+
 // True if the other channels make no step across the gap that is large beside their usual ones.
 bool others_go_on(const TrialRecording& recording, std::string_view position, std::size_t at) {
   constexpr double kTimes = 3.0;
@@ -73,6 +132,8 @@ void check_clock_steps(TrialRecording& recording, const RecordingPlaces& places)
                                                        "motor_left_position_rad", "motor_right_position_rad"};
   const auto& t = recording.t_s;
   if (!recording.has_time || t.size() < 2 * (kSide + 1)) return;
+  for (const auto channel : kPositions)
+    if (recording.has(channel) && doubt_bursts(recording, places, channel)) return;
   const double usual_s = median_step_s(t);
   for (std::size_t at = kSide + 1; at + kSide < t.size(); ++at) {
     const double gap_s = t[at] - t[at - 1];

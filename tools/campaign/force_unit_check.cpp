@@ -38,16 +38,19 @@ ForceDoubt doubt_of_newtons(const Campaign& campaign, const IntruderBelief& beli
 }  // namespace
 
 void check_force_unit(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
-                      const RecordingPlaces& places) {
+                      const RecordingPlaces& places, bool depth_ends_early) {
   const bool pushes = trial.kind == TrialKind::intrusion || trial.kind == TrialKind::press;
   const auto* belief = std::get_if<IntruderBelief>(&trial.belief);
   if (belief == nullptr || !pushes || any_unusable(recording.findings)) return;
   const auto* column = places.column_of("force_N");
   if (column == nullptr || !recording.has("force_N") || !recording.has("foot_z_m")) return;
-  const auto most = deepest_push(recording);
+  auto most = deepest_push(recording);
+  if (depth_ends_early)
+    for (const double force_N : recording.channel("force_N")) most.force_N = std::fmax(most.force_N, force_N);
   if (!(most.force_N > 0.0) || !(most.depth_m > 0.0)) return;
   const auto doubt = doubt_of_newtons(campaign, *belief, most);
-  if (doubt.why.empty()) return;
+  // Without the depths of the largest forces only a force that is too small is in doubt.
+  if (doubt.why.empty() || (depth_ends_early && doubt.factor < 1.0)) return;
   const auto what =
       fmt::format("reaches {}: the force, the depth or the belief is in another unit", doubt.why);
   auto cure = fmt::format(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -14,9 +15,6 @@
 
 namespace sandhopper {
 namespace {
-
-constexpr std::string_view kCell = "load_cell_force_N", kBodyAccel = "imu_body_accel_z_mps2",
-                           kFootAccel = "imu_foot_accel_z_mps2";
 
 struct ForceUnit {
   std::string_view name;
@@ -38,6 +36,7 @@ class HopperForceChecker {
   void run() {
     if (check_exchange() || check_lag()) return;
     check_cell();
+    check_currents();
   }
 
  private:
@@ -77,7 +76,7 @@ class HopperForceChecker {
       if (i == 0 || !((*phase)[i - 1] > 0.0)) touchdowns += 1.0;
     }
     if (touchdowns > 0.0) return rows / touchdowns;
-    return static_cast<double>(std::ranges::count(loaded_rows(*recording_.find(kCell)), true));
+    return static_cast<double>(std::ranges::count(loaded_rows(*recording_.find(kLoadCell)), true));
   }
 
   // Late by more than the share of a stance that a rate's spans have of a recording. Below that the sensors'
@@ -94,7 +93,7 @@ class HopperForceChecker {
   }
 
   bool check_lag() {
-    const auto* cell = recording_.find(kCell);
+    const auto* cell = recording_.find(kLoadCell);
     const auto from = cell == nullptr ? std::nullopt : first_loaded_row(*cell);
     if (recording_.rows() < 2 || !from) return false;
     const auto by_inertia = best_lag(forces_.inertia_N, *cell, *from);
@@ -104,7 +103,7 @@ class HopperForceChecker {
     if (!is_late(lag) || (has_leg() && !is_late(by_leg))) return false;
     const double lag_s = static_cast<double>(lag.rows) * row_s();
     if (is_stated_latency(lag_s)) return false;
-    add(kCell,
+    add(kLoadCell,
         fmt::format("is {:.3f} s {} against the forces of the accelerometers and the leg (correlation {:.2f} "
                     "there, {:.2f} in the same row)",
                     std::abs(lag_s), lag_s > 0.0 ? "late" : "early", std::sqrt(lag.at_best),
@@ -112,14 +111,14 @@ class HopperForceChecker {
         fmt::format("move this column by {} rows towards {} rows in the file; see that both recorders share "
                     "one clock, and that no filter delays it",
                     std::abs(lag.rows), lag_s > 0.0 ? "earlier" : "later"),
-        places_.is_stated(kCell) && places_.is_stated("t_s"));
+        places_.is_stated(kLoadCell) && places_.is_stated("t_s"));
     return true;
   }
 
   // Mean of the cell over that of `force` in the rows in which the cell carries load. Empty if the two do not
   // move together.
   std::optional<double> ratio_to(const std::vector<double>& force) const {
-    const auto& cell = *recording_.find(kCell);
+    const auto& cell = *recording_.find(kLoadCell);
     const auto from = first_loaded_row(cell);
     if (!from || together(force, cell, *from) < kBelongTogether) return std::nullopt;
     const auto loaded = loaded_rows(cell);
@@ -143,7 +142,7 @@ class HopperForceChecker {
   }
 
   void check_cell() {
-    if (!has(kCell)) return;
+    if (!has(kLoadCell)) return;
     const auto by_inertia = ratio_to(forces_.inertia_N), by_leg = ratio_to(forces_.foot_N);
     const auto& ratio = by_inertia ? by_inertia : by_leg;
     if (!ratio || is_force(*ratio) || (by_leg && is_force(*by_leg))) return;
@@ -153,7 +152,7 @@ class HopperForceChecker {
     if (unit != nullptr) meaning = fmt::format("the numbers are in {} ({:.4g} N)", unit->name, unit->in_N);
     if (is_scaled && unit == nullptr) meaning = "the scale of the cell is wrong";
     if (is_turned) meaning += fmt::format("{}it counts tension", meaning.empty() ? "" : ", and ");
-    const auto* column = places_.column_of(kCell);
+    const auto* column = places_.column_of(kLoadCell);
     std::string cure = "correct unit, scale and sign: newtons, compression positive";
     if (column != nullptr && is_scaled && unit == nullptr) {
       cure = scale_cure(*column);
@@ -161,10 +160,30 @@ class HopperForceChecker {
       const auto scaled = unit != nullptr ? in_other_unit(*column, unit->in_N) : *column;
       cure = fmt::format("write {} into [columns]", mapping_line(is_turned ? reversed(scaled) : scaled));
     }
-    add(kCell,
+    add(kLoadCell,
         fmt::format("is {:.3g} times the ground's force by {}, in the rows with load: {}", *ratio,
                     by_inertia ? "the masses and accelerometers" : "the motors' torques over L'", meaning),
-        std::move(cure), places_.is_stated(kCell));
+        std::move(cure), places_.is_stated(kLoadCell));
+  }
+
+  // Half way, on a scale of ratios, between the currents' peak and their effective value.
+  void check_currents() {
+    if (!has(kLoadCell) || any_unusable(recording_.findings)) return;
+    const auto ratio = ratio_to(forces_.foot_N);
+    const double limit = std::pow(2.0, 0.25);
+    if (!ratio || (*ratio > 1.0 / limit && *ratio < limit)) return;
+    const double factor = *ratio > 1.0 ? std::numbers::sqrt2 : 1.0 / std::numbers::sqrt2;
+    add_implausible(
+        recording_, places_, FindingSeverity::note, "motor_left_current_A",
+        fmt::format(
+            "and that of the other motor give, by torque over L', {:.2f} times the force of the load cell, "
+            "in the rows with load: the currents are {} values, the torque constant is another, or the "
+            "cell has a gain error. What hop terrain says from the currents is off by that",
+            1.0 / *ratio, factor > 1.0 ? "effective (rms)" : "summed"),
+        fmt::format(
+            "if it is the currents, write scale = {:.4g} for both into [columns]; if it is the motor, "
+            "correct motor.torque_constant_Nm_per_A",
+            factor));
   }
 
   bool has(std::string_view channel) const { return recording_.has(channel); }

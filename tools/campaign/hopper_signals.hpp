@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "estimation/leg.hpp"
@@ -9,6 +10,9 @@
 
 // Forces that a hopper's channels give independently of each other, and how far two signals agree.
 namespace sandhopper {
+
+inline constexpr std::string_view kLoadCell = "load_cell_force_N", kBodyAccel = "imu_body_accel_z_mps2",
+                                  kFootAccel = "imu_foot_accel_z_mps2";
 
 // Each has one value per row; NaN: not known there, or in no row if its channels are missing.
 struct HopperForces {

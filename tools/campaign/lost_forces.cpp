@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "tools/campaign/force_at_depth.hpp"
+#include "tools/campaign/force_threshold.hpp"
 #include "tools/campaign/trial_rows.hpp"
 
 namespace sandhopper {
@@ -25,6 +27,7 @@ constexpr std::size_t kBeside = 6;
 struct Forces {
   explicit Forces(const TrialRecording& recording) {
     ForceAtDepth pairs(recording);
+    threshold = force_threshold(pairs);
     rows = std::move(pairs.rows), force = std::move(pairs.force_N), height = std::move(pairs.z_m);
   }
 
@@ -67,6 +70,12 @@ struct Forces {
     return count > 0.0 ? std::sqrt(sum / count) : std::numeric_limits<double>::infinity();
   }
 
+  // A value written below a threshold, in a row below depth 0.
+  bool is_below_threshold(std::size_t i) const {
+    return threshold && force[i] == threshold->held_N && height[i] < 0.0;
+  }
+
+  std::optional<ForceThreshold> threshold;
   std::vector<std::size_t> rows;
   std::vector<double> force, height;
 };
@@ -126,6 +135,17 @@ void note_lost(TrialRecording& recording, const RecordingPlaces& places, const s
       "leave the cell empty where there is no sample");
 }
 
+void note_threshold(TrialRecording& recording, const RecordingPlaces& places, const ForceThreshold& found) {
+  note_at_row(
+      recording, places, FindingKind::held_samples, found.last_row,
+      fmt::format(
+          "force_N is {:g} in {} rows, down to a depth of {:.3g} mm, and no force lies between that and "
+          "{:.3g} N: the recorder writes {:g} below a threshold; hop terrain leaves these rows out, so "
+          "that nothing is known of smaller forces",
+          found.held_N, found.rows, 1e3 * found.depth_m, found.least_N, found.held_N),
+      "set the recorder's threshold to 0 and record again, if the upper layer counts");
+}
+
 }  // namespace
 
 std::vector<LostForce> lost_forces(const TrialRecording& recording) {
@@ -136,7 +156,10 @@ std::vector<LostForce> lost_forces(const TrialRecording& recording) {
   const bool zeros_are_lost = fills_with_zeros(f);
   for (std::size_t first = 0; first < f.size();) {
     const std::size_t last = f.end_of_run(first);
-    if (first > 0 && last + 1 < f.size()) {
+    if (f.is_below_threshold(last)) {
+      while (!f.is_below_threshold(first)) ++first;
+      lost.push_back({f.rows[first], f.rows[last], true});
+    } else if (first > 0 && last + 1 < f.size()) {
       if (falls_to_zero(f, first, last) || (zeros_are_lost && f.force[first] == 0.0))
         lost.push_back({f.rows[first], f.rows[last], true});
       else if (stands_still(f, first, last, low, high))
@@ -149,7 +172,10 @@ std::vector<LostForce> lost_forces(const TrialRecording& recording) {
 
 void check_lost_forces(TrialRecording& recording, const RecordingPlaces& places) {
   const auto lost = lost_forces(recording);
-  note_lost(recording, places, lost, true);
+  if (const auto threshold = force_threshold(ForceAtDepth(recording)))
+    note_threshold(recording, places, *threshold);
+  else
+    note_lost(recording, places, lost, true);
   note_lost(recording, places, lost, false);
 }
 

@@ -15,7 +15,8 @@ struct LostForce {
 
 // A bed's force follows the depth and a cell shows noise. Two things are therefore no measurement: zeros that
 // the force jumps to and comes back from, and one value that stands still while the foot moves on, if equal
-// samples are too rare elsewhere to be chance and the force jumps at its end. In the order of the rows.
+// samples are too rare elsewhere to be chance and the force jumps at its end. Nor is a value below depth 0
+// that stands for all forces below a threshold (force_threshold). In the order of the rows.
 std::vector<LostForce> lost_forces(const TrialRecording& recording);
 
 // Notes them. Nothing is taken out: a diagnosis finds the fault of the logger itself.

@@ -10,6 +10,7 @@
 
 #include "tools/campaign/force_at_depth.hpp"
 #include "tools/campaign/implausible.hpp"
+#include "tools/campaign/mass_below_cell.hpp"
 #include "tools/campaign/surface_onset.hpp"
 
 namespace sandhopper {
@@ -24,16 +25,6 @@ constexpr double kClear = 5.0;         // in standard deviations
 constexpr double kShareOfPeak = 0.01;  // A smaller force at no contact changes no stiffness visibly.
 constexpr double kLeastTravel_m = 1e-4;
 constexpr double kLeastHole_m = 5e-3;
-
-// Mass of the effect load_cell.inertia; 0: none is stated.
-double mass_below_cell_kg(const Belief& belief) {
-  const auto& effects =
-      std::visit([](const auto& plant) -> const BeliefEffects& { return plant.effects; }, belief);
-  const auto effect = effects.find("load_cell.inertia[force_N]");
-  if (effect == effects.end()) return 0.0;
-  const auto mass = effect->second.find("mass_kg");
-  return mass == effect->second.end() ? 0.0 : mass->second;
-}
 
 // Force before the first row below the surface.
 struct Idle {
@@ -163,7 +154,7 @@ class SurfaceChecker {
     const auto sd = [&](int k) {
       return std::sqrt(std::max(0.0, squares[k] / rows[k] - sums[k] * sums[k] / (rows[k] * rows[k])));
     };
-    if (mass_below_cell_kg(trial_.belief) != 0.0 || sd(0) < kAsInBed * sd(1)) return false;
+    if (mass_below_cell_kg(trial_.belief, "force_N") != 0.0 || sd(0) < kAsInBed * sd(1)) return false;
     doubt_column(
         recording_, places_, places_.is_stated("force_N"), "force_N",
         fmt::format("varies by {:.3g} N (standard deviation) above the surface and by {:.3g} N below, "
@@ -175,7 +166,7 @@ class SurfaceChecker {
   }
 
   void check_zero_of_force() {
-    const double mass_kg = mass_below_cell_kg(trial_.belief);
+    const double mass_kg = mass_below_cell_kg(trial_.belief, "force_N");
     const double untared_N = push_.untared_N(mass_kg);
     if (untared_N == 0.0) return;
     std::string cure = "tare it";
@@ -200,8 +191,7 @@ class SurfaceChecker {
     if (!fall || !fall->is_clear() || force_N <= 0.0) return "";
     return fmt::format(
         ". But the foot falls there, with {:.3g} m/s2: a cell that was tared at rest reads as much if {:.2g} "
-        "kg "
-        "hang below it. In that case write \"load_cell.inertia[force_N]\" = {{ mass_kg = {:.2g} }} into "
+        "kg hang below it. In that case write \"load_cell.inertia[force_N]\" = {{ mass_kg = {:.2g} }} into "
         "[effects] of nominal.toml, and no offset",
         fall->accel_mps2, force_N / fall->accel_mps2, force_N / fall->accel_mps2);
   }

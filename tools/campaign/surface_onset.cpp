@@ -135,8 +135,9 @@ std::optional<Onset> onset_of(const Stroke& stroke) {
   for (std::size_t i = 0; i < kIdleRows; ++i) idle_N += force[i] / static_cast<double>(kIdleRows);
   for (std::size_t i = 0; i < kIdleRows; ++i) squares += (force[i] - idle_N) * (force[i] - idle_N);
   const std::span<const double> begin(force.data(), 3 * kIdleRows);
-  const double sd_N =
-      std::max(noise_of_bends(begin), std::sqrt(squares / static_cast<double>(kIdleRows - 1)));
+  double sd_N = std::max(noise_of_bends(begin), std::sqrt(squares / static_cast<double>(kIdleRows - 1)));
+  // One value in all of these rows (a threshold, a sample that was held) shows no noise.
+  if (!(sd_N > 0.0)) sd_N = noise_of_bends(force);
   const double clear_N = kOnsetClear * sd_N;
   const std::size_t first = first_pushed(force, idle_N + clear_N);
   std::size_t end = first;

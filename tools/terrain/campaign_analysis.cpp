@@ -8,6 +8,7 @@
 
 #include "tools/campaign/belief_sources.hpp"
 #include "tools/campaign/lost_forces.hpp"
+#include "tools/campaign/mass_below_cell.hpp"
 #include "tools/campaign/repeated_recordings.hpp"
 #include "tools/experiment/parallel.hpp"
 
@@ -31,6 +32,7 @@ TrialResult analyse_trial(const Campaign& campaign, const CampaignTrial& trial, 
   auto recording = read_trial(campaign, trial, is_found_here);
   fingerprint = fingerprint_of(recording);
   leave_out_lost_forces(recording);
+  add_mass_below_cell(recording, trial.belief);
   auto result = result_of(trial, recording);
   bool taken = false;
   for (const auto* analysis : all_analyses()) {

@@ -29,6 +29,12 @@ std::string interval_text(double low, double high) {
   return fmt::format("{} to {}", value_text(low, low, high), value_text(high, low, high));
 }
 
+std::string with_interval(double value, double low, double high) {
+  const auto text = value_text(value, low, high);
+  if (!std::isfinite(low) || !std::isfinite(high)) return text;
+  return fmt::format("{} [{}, {}]", text, value_text(low, low, high), value_text(high, low, high));
+}
+
 std::string value_text(double value, double low, double high) {
   return digits_by(value, 0.5 * (high - low)).value_or(figure_number(value));
 }

@@ -7,6 +7,9 @@
 // Texts for names and values.
 namespace sandhopper {
 
+// "1530 [1200, 1860]", as in the strength profile; the value alone without an interval.
+std::string with_interval(double value, double low, double high);
+
 // Three significant digits without an exponent below a million: "1230", "0.0412", "–" for NaN.
 std::string rounded_text(double value);
 std::string figure_number(double value);  // four significant digits, "–" for NaN

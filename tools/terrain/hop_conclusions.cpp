@@ -259,14 +259,13 @@ CampaignConclusions conclude_hops(Results results) {
     if (mean.trials == 0) continue;
     if (way.name == "joint" && pooled.strides > 1) {  // the number of the answer
       told.lines.push_back(
-          fmt::format("  {:22} {:>6} N/m ({}; {} strides, each weighted by its own error)", way.title,
-                      value_text(pooled.value_N_per_m, pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m),
-                      interval_text(pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m), pooled.strides));
+          fmt::format("  {:22} {} N/m; {} strides, each weighted by its own error", way.title,
+                      with_interval(pooled.value_N_per_m, pooled.ci95_low_N_per_m, pooled.ci95_high_N_per_m),
+                      pooled.strides));
       continue;
     }
-    told.lines.push_back(fmt::format("  {:22} {:>6} N/m ({}; {} trials)", way.title,
-                                     value_text(mean.value, mean.ci95_low, mean.ci95_high),
-                                     interval_text(mean.ci95_low, mean.ci95_high), mean.trials));
+    told.lines.push_back(fmt::format("  {:22} {} N/m; {} trials", way.title,
+                                     with_interval(mean.value, mean.ci95_low, mean.ci95_high), mean.trials));
   }
   told.sections.push_back(stiffness_section(results, pooled));
   StudySection forces{.title = "Force and depth"};

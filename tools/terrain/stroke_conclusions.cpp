@@ -251,8 +251,7 @@ CampaignConclusions conclude_strokes(Results results) {
       .note =
           "F = F0 + k z + (a + b z + c z²) v² + m_a(z) z̈ with m_a the integral of the drag; 95 % intervals "
           "by leaving out one stroke after the other. Slow: below 0.077 m/s. –: needs three strokes, one of "
-          "them "
-          "faster than 0.3 m/s."};
+          "them faster than 0.3 m/s."};
   std::vector<StudyFigure> figures{path_figure(results), slope_figure(plates)};
   const auto fused = std::count_if(results.begin(), results.end(), [](const TrialResult* result) {
     const auto facts = result->series.find("stroke");
@@ -282,9 +281,9 @@ CampaignConclusions conclude_strokes(Results results) {
   }
   if (const auto law = area_law(plates); std::isfinite(law.exponent)) {
     const auto text =
-        fmt::format("stiffness grows with the plate's area to the power {} ({}; {} strokes)",
-                    value_text(law.exponent, law.exponent - law.half_width, law.exponent + law.half_width),
-                    interval_text(law.exponent - law.half_width, law.exponent + law.half_width), law.trials);
+        fmt::format("stiffness grows with the plate's area to the power {}; {} strokes",
+                    with_interval(law.exponent, law.exponent - law.half_width, law.exponent + law.half_width),
+                    law.trials);
     conclusions.lines.push_back("  " + text);
     conclusions.json["area_exponent"] = {
         {"value", law.exponent},
