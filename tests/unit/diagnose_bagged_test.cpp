@@ -7,25 +7,15 @@
 #include <vector>
 
 #include "tests/unit/diagnose_free_swings.hpp"
+#include "tests/unit/diagnose_prepared.hpp"
 #include "tools/diagnose/evidence/bagged.hpp"
 #include "tools/diagnose/evidence/log_evidence.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/fit/fit.hpp"
-#include "tools/diagnose/fit/prepare.hpp"
 
 // Masses of sets of effects, averaged over resampled trials.
 namespace sandhopper::diagnose {
 namespace {
-
-Problem prepared(const Recordings& recordings) {
-  Problem problem = prepare(recordings).problem;
-  const Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
-  update_noise(problem, point);
-  keep_columns(problem, point);
-  return problem;
-}
-
-double dragged(double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }
 
 // The fit of one effect by itself, from its typical size with this sign.
 SetFit fitted(const Problem& problem, const std::string& name, double sign = 1.0) {

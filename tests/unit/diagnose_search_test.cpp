@@ -6,25 +6,15 @@
 #include <vector>
 
 #include "tests/unit/diagnose_campaigns.hpp"
+#include "tests/unit/diagnose_prepared.hpp"
 #include "tools/diagnose/evidence/beside.hpp"
 #include "tools/diagnose/evidence/posterior.hpp"
 #include "tools/diagnose/evidence/search.hpp"
 #include "tools/diagnose/fit/fit.hpp"
-#include "tools/diagnose/fit/prepare.hpp"
 
 // The search over sets of effects.
 namespace sandhopper::diagnose {
 namespace {
-
-Problem prepared(const Recordings& recordings) {
-  Problem problem = prepare(recordings).problem;
-  const Point point = fit_from(problem, null_point(problem), {.max_iterations = 6}).point;
-  update_noise(problem, point);
-  keep_columns(problem, point);
-  return problem;
-}
-
-double dragged(double, double, double v) { return -0.5 * 1.2 * 0.01 * 0.5 * std::abs(v) * v; }
 
 TEST(DiagnoseSearch, FitsEveryOtherEffectBesideTheBestSet) {
   const Problem problem = prepared(drops(dragged));
