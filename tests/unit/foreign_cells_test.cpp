@@ -202,16 +202,28 @@ TEST(ForeignCells, ACodeThatASensorRepeatsIsNamedAndLeftOut) {
   }
 }
 
-TEST(ForeignCells, ACodeWithinTheWayIsNamedToo) {
+// Every thirteenth angle of an axis is `code`.
+std::string swing_with_code(double code) {
   std::string text = "t_s,position_rad,torque_Nm\n";
   for (int i = 0; i < 300; ++i)
     text += fmt::format("{:.2f},{:.5f},{:.3f}\n", 0.01 * i,
-                        i % 13 == 5 ? 0.0 : std::cos(0.05 * i) + 1e-3 * (i % 3), std::sin(0.3 * i));
+                        i % 13 == 5 ? code : std::cos(0.05 * i) + 1e-3 * (i % 3), std::sin(0.3 * i));
+  return text;
+}
+
+TEST(ForeignCells, ACodeWithinTheWayIsNamedToo) {
+  const auto text = swing_with_code(0.25);
   const auto asked = read_campaign("plant = \"rotary_axis\"", text);
   EXPECT_FALSE(asked.recording.usable());
-  EXPECT_THAT(asked.text, HasSubstr("no_sample = [\"0\"]"));
+  EXPECT_THAT(asked.text, HasSubstr("no_sample = [\"0.25\"]"));
   EXPECT_TRUE(
-      read_campaign("plant = \"rotary_axis\"\n[format]\nno_sample = [\"0\"]", text).recording.usable());
+      read_campaign("plant = \"rotary_axis\"\n[format]\nno_sample = [\"0.25\"]", text).recording.usable());
+}
+
+TEST(ForeignCells, ZerosOfAnAxisAreLeftToTheDiagnosis) {
+  const auto noted = read_campaign("plant = \"rotary_axis\"", swing_with_code(0.0));
+  EXPECT_TRUE(noted.recording.usable()) << noted.text;
+  EXPECT_THAT(noted.text, HasSubstr("data.dropout"));
 }
 
 TEST(ForeignCells, WhatIsNoCodeGivesNoMessage) {

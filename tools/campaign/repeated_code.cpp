@@ -98,9 +98,16 @@ std::optional<Code> code_in(const std::vector<Sample>& samples) {
   return std::nullopt;
 }
 
+// The diagnosis finds a sensor that falls out to 0 and leaves these samples out. Nothing else reads the
+// recordings of an axis. For a falling body 0 is also the height of the bed.
+bool is_left_to_diagnosis(const Campaign& campaign, const Code& code) {
+  return campaign.plant == CampaignPlant::rotary_axis && code.value == 0.0;
+}
+
 }  // namespace
 
-bool check_repeated_codes(TrialRecording& recording, const RecordingPlaces& places) {
+bool check_repeated_codes(TrialRecording& recording, const Campaign& campaign,
+                          const RecordingPlaces& places) {
   constexpr std::array<std::string_view, 8> kPositions{"position_rad",
                                                        "foot_z_m",
                                                        "height_m",
@@ -117,14 +124,19 @@ bool check_repeated_codes(TrialRecording& recording, const RecordingPlaces& plac
     if (!code) continue;
     const auto* column = places.column_of(channel);
     const double written = column == nullptr ? code->value : (code->value - column->offset) / column->scale;
+    const auto what = fmt::format(
+        "reads {:.9g} in {} rows, the first of them line {}, and jumps there and back farther than in any "
+        "other row: a code that the sensor writes where it has no sample",
+        written, code->rows, places.line_of(code->first_row));
+    if (is_left_to_diagnosis(campaign, *code)) {
+      add_implausible(recording, places, FindingSeverity::note, channel, what,
+                      "hop diagnose reports these rows as lost samples (data.dropout)");
+      continue;
+    }
     const bool is_stated = places.is_stated(channel);
     is_lost |= !is_stated;
     doubt_column(
-        recording, places, is_stated, channel,
-        fmt::format(
-            "reads {:.9g} in {} rows, the first of them line {}, and jumps there and back farther than in "
-            "any other row: a code that the sensor writes where it has no sample",
-            written, code->rows, places.line_of(code->first_row)),
+        recording, places, is_stated, channel, what,
         fmt::format(
             "write [format] no_sample = [\"{:.9g}\"] into campaign.toml; if it was measured, state unit and "
             "scale of the column",

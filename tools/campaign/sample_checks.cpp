@@ -54,7 +54,7 @@ void check_surfaces(TrialRecording& recording, const Campaign& campaign, const C
 
 void check_samples(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                    const RecordingPlaces& places) {
-  if (check_repeated_codes(recording, places)) return;
+  if (check_repeated_codes(recording, campaign, places)) return;
   check_held_samples(recording, places);
   check_held_heights(recording, campaign, places);
   check_interpolated(recording, places);
