@@ -16,7 +16,7 @@ constexpr double kFarAbove = 8.0, kHeldByChance = 0.001;
 struct MeasuredForces {
   double repeats = 1.0, steps = 2.0;  // with one more of each in doubt (rule of succession)
   double squares = 0.0, near = 0.0;   // of the steps of the first measured forces
-  double least_N = 0.0, most_N = 0.0;
+  double least_N = 0.0;
   std::size_t count = 0;
 
   double usual_step_N() const { return std::sqrt(squares / near); }
@@ -28,7 +28,6 @@ MeasuredForces measured_forces(const std::vector<double>& force, double held_N) 
     if (force[i] == held_N) continue;
     const double above = force[i] - held_N;
     out.least_N = out.count == 0 ? above : std::min(out.least_N, above);
-    out.most_N = std::max(out.most_N, above);
     ++out.count;
     if (force[i - 1] == held_N) continue;
     const double step = force[i] - force[i - 1];

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "estimation/leg.hpp"
+#include "tools/campaign/hopper_signals.hpp"
 #include "tools/campaign/implausible.hpp"
 
 namespace sandhopper {
@@ -211,9 +212,8 @@ class HopperChecker {
 
 void check_hopper(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                   const RecordingPlaces& places) {
-  const auto* belief = std::get_if<HopperBelief>(&trial.belief);
-  if (campaign.plant != CampaignPlant::hopper || belief == nullptr || !recording.has_time) return;
-  if (trial.kind != TrialKind::hop || !trial.unstated.empty()) return;
+  const auto* belief = belief_of_hop(recording, campaign, trial);
+  if (belief == nullptr) return;
   try {
     HopperChecker(recording, Leg(belief->robot.leg), places).run();
   } catch (const std::invalid_argument&) {

@@ -76,9 +76,8 @@ void check_clock_of_heights(TrialRecording& recording, const Leg& leg, const Rec
 
 void check_hopper_clock(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                         const RecordingPlaces& places) {
-  const auto* belief = std::get_if<HopperBelief>(&trial.belief);
-  if (campaign.plant != CampaignPlant::hopper || belief == nullptr || !recording.has_time) return;
-  if (trial.kind != TrialKind::hop || !trial.unstated.empty() || any_unusable(recording.findings)) return;
+  const auto* belief = belief_of_hop(recording, campaign, trial);
+  if (belief == nullptr || any_unusable(recording.findings)) return;
   try {
     check_clock_of_heights(recording, Leg(belief->robot.leg), places);
   } catch (const std::invalid_argument&) {

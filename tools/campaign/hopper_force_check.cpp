@@ -205,9 +205,8 @@ class HopperForceChecker {
 
 void check_hopper_forces(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                          const RecordingPlaces& places) {
-  const auto* belief = std::get_if<HopperBelief>(&trial.belief);
-  if (campaign.plant != CampaignPlant::hopper || belief == nullptr || !recording.has_time) return;
-  if (trial.kind != TrialKind::hop || !trial.unstated.empty() || any_unusable(recording.findings)) return;
+  const auto* belief = belief_of_hop(recording, campaign, trial);
+  if (belief == nullptr || any_unusable(recording.findings)) return;
   try {
     HopperForceChecker(recording, Leg(belief->robot.leg), *belief, places).run();
   } catch (const std::invalid_argument&) {

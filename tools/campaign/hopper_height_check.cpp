@@ -169,9 +169,8 @@ class HopperHeightChecker {
 
 void check_hopper_heights(TrialRecording& recording, const Campaign& campaign, const CampaignTrial& trial,
                           const RecordingPlaces& places) {
-  const auto* belief = std::get_if<HopperBelief>(&trial.belief);
-  if (campaign.plant != CampaignPlant::hopper || belief == nullptr || !recording.has_time) return;
-  if (trial.kind != TrialKind::hop || !trial.unstated.empty()) return;
+  const auto* belief = belief_of_hop(recording, campaign, trial);
+  if (belief == nullptr) return;
   HopperHeightChecker(recording, *belief, places).run();
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <variant>
 
 namespace sandhopper {
 namespace {
@@ -43,6 +44,13 @@ double together_until(const std::vector<double>& a, const std::vector<double>& b
 }
 
 }  // namespace
+
+const HopperBelief* belief_of_hop(const TrialRecording& recording, const Campaign& campaign,
+                                  const CampaignTrial& trial) {
+  const bool is_hop = campaign.plant == CampaignPlant::hopper && trial.kind == TrialKind::hop;
+  return is_hop && recording.has_time && trial.unstated.empty() ? std::get_if<HopperBelief>(&trial.belief)
+                                                                : nullptr;
+}
 
 HopperForces hopper_forces(const TrialRecording& recording, const Leg& leg, const HopperBelief& belief) {
   const auto& p = belief.robot.leg;

@@ -6,6 +6,7 @@
 
 #include "estimation/leg.hpp"
 #include "tools/campaign/belief.hpp"
+#include "tools/campaign/campaign.hpp"
 #include "tools/campaign/trial_recording.hpp"
 
 // Forces that a hopper's channels give independently of each other, and how far two signals agree.
@@ -13,6 +14,10 @@ namespace sandhopper {
 
 inline constexpr std::string_view kLoadCell = "load_cell_force_N", kBodyAccel = "imu_body_accel_z_mps2",
                                   kFootAccel = "imu_foot_accel_z_mps2";
+
+// The belief about a hop whose checks need nothing that is not stated; nullptr for every other trial.
+const HopperBelief* belief_of_hop(const TrialRecording& recording, const Campaign& campaign,
+                                  const CampaignTrial& trial);
 
 // Each has one value per row; NaN: not known there, or in no row if its channels are missing.
 struct HopperForces {

@@ -19,7 +19,7 @@ struct Limits {
   double form = 0.1;  // Relative to the effect's signature: smooth in time, independent between trials.
   double size_of_trial = 0.05;  // Relative scatter of the effect's size between trials.
   // How large such errors are is not known: these shares of both are equally probable. They are equally far
-  // apart in the logarithm, the usual prior of a scale (Jeffreys). The smallest one is no error at all.
+  // apart in the logarithm, the usual prior of a scale (Jeffreys). The smallest one is hardly an error.
   std::array<double, 7> form_shares{0.001, 0.00316, 0.01, 0.0316, 0.1, 0.316, 1.0};
   // Standard deviations of an unknown law, in the scale of its port; equally probable.
   std::array<double, 3> unknown_sizes{0.3, 1.0, 3.0};
